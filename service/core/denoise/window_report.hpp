@@ -1,0 +1,60 @@
+/// What the denoiser found in one window of one axis: the figures behind the decision which modes are noise.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace gyrod::core {
+
+/// IMFs a report has room for; EmdOptions::max_imfs may not exceed it.
+inline constexpr std::size_t kMaxImfs = 32;
+/// Largest AR order that can be asked for.
+inline constexpr std::size_t kMaxArOrder = 16;
+
+/// What an IMF was taken for, [Yang2019] eq. (4).
+enum class ImfClass : std::uint8_t {
+  kNoise,   ///< dropped
+  kMixed,   ///< modelled as AR(p) and Kalman filtered
+  kSignal,  ///< kept
+};
+
+/// One IMF's figures.
+struct ImfFigures {
+  ImfClass imf_class = ImfClass::kSignal;
+  /// Pearson correlation with what the rule set compares with (the raw window, or the sum of IMF 1..k).
+  double pcc = 0.0;
+  /// Variance of the normalised autocorrelation function over all lags 0..N-1.
+  double acf_variance = 0.0;
+  /// c_i = acf_variance * N / T_i: 0.45 for a noise IMF at any N (method.md B).
+  double acf_concentration = 0.0;
+  /// Mean period T_i = 2 N / zero crossings, samples.
+  double mean_period_samples = 0.0;
+  /// Variance, unit^2.
+  double energy = 0.0;
+  /// Energy over that of the channel's white noise in this IMF (the noise line); about 1 is noise. 0 if the floor is unknown.
+  double excess = 0.0;
+  /// Order and coefficients of the AR model x[k] = a_1 x[k-1] + ... + a_p x[k-p] + w[k] (mixed IMFs only, else order 0).
+  std::size_t ar_order = 0;
+  std::array<double, kMaxArOrder> ar_coefficients{};
+};
+
+/// One axis of one window. Fixed size, so that it is passed around without allocating.
+struct WindowReport {
+  /// Samples in the window.
+  std::size_t window_samples = 0;
+  /// Number of IMFs taken out; `imf[0..imf_count)` are valid.
+  std::size_t imf_count = 0;
+  /// IMF 1..j are noise, j+1..k mixed, the rest (and the residue) signal.
+  std::size_t j = 0;
+  std::size_t k = 0;
+  /// Standard deviation of the input's white noise, in the input's unit; 0 if unknown.
+  double noise_floor = 0.0;
+  /// Estimated standard deviation of the noise left in the output, in the input's unit.
+  double output_noise = 0.0;
+  /// Mean of the window, in the input's unit.
+  double mean = 0.0;
+  std::array<ImfFigures, kMaxImfs> imf{};
+};
+
+}  // namespace gyrod::core

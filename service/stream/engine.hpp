@@ -1,0 +1,98 @@
+/// The streaming engine: samples in, denoised samples out, in order, counted, on a pool of workers.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stream/counters.hpp"
+#include "stream/method.hpp"
+#include "stream/report.hpp"
+#include "stream/sample.hpp"
+
+namespace gyrod::stream {
+
+/// Where released samples go. Called by the thread that finished the work (a worker, or the caller of Engine in its
+/// inline mode), for one sensor by one thread at a time and in sequence order. Must not call back into the engine.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  /// @param sensor valid during the call
+  virtual void on_samples(std::string_view sensor, std::span<const DenoisedSample> samples) noexcept = 0;
+  /// One report a window, after the window's samples.
+  virtual void on_report(std::string_view sensor, const NoiseReport& report) noexcept = 0;
+};
+
+struct EngineOptions {
+  /// Samples of a full window. 64..65536.
+  std::size_t window_samples = 1024;
+  /// Samples between windows. 1..window_samples/2.
+  std::size_t hop_samples = 32;
+  /// Widest hop under overload, samples; hop_samples..window_samples/2.
+  std::size_t max_hop_samples = 256;
+  /// Look-ahead of a released sample, samples. 0..window_samples/4.
+  std::size_t lag_samples = 16;
+  /// Windows of one channel that may wait for a worker. 1..64.
+  std::size_t max_queued_windows = 4;
+  /// Workers; 0 computes in the thread that pushes (offline use, tests).
+  std::size_t workers = 2;
+  /// Sensors at the most; further ids are refused and counted. 1..100000.
+  std::size_t max_channels = 1024;
+  /// Sample rate, Hz; 0 estimates it from the stamps.
+  double sample_rate_hz = 0.0;
+  /// Angular rates beyond this are refused, rad/s. Default: ten times the range of a common 1000 deg/s sensor.
+  double max_rate_radps = 175.0;
+  /// Missing samples that are bridged by interpolation; a longer gap closes the window. 0..window_samples/4.
+  std::size_t max_bridged_samples = 16;
+  /// Age of a waiting window at which overload is declared, s. 0.01..3600.
+  double max_delay_s = 1.0;
+};
+
+/// Seconds of a steady clock; tests inject their own.
+using Clock = std::function<double()>;
+
+/// Thread safety: push(), end_of_stream() and stop() may be called from any one thread at a time (the bus thread);
+/// the snapshots from any thread at any time.
+class Engine {
+ public:
+  /// @throws std::invalid_argument for an option outside its range, naming it
+  Engine(EngineOptions options, MethodFactory method, Sink& sink, Clock clock = {});
+  /// Stops as by stop() with a deadline of zero: what is not released by then passes through undenoised.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Takes samples of one sensor, oldest first. Opens a channel for a new sensor. Refuses bad samples, each counted under
+  /// one reason. Waits while the sensor's windows wait for a worker (backpressure), at most until overload is declared.
+  /// Does not allocate once the channel is open.
+  void push(std::string_view sensor, std::span<const Sample> samples) noexcept;
+
+  /// The sensor has ended: releases what its channel holds (flagged kTail) and forgets its window; the channel and its
+  /// counts stay, and a later sample opens a new window.
+  void end_of_stream(std::string_view sensor) noexcept;
+
+  /// Releases all that is held, denoised while the deadline lasts and then passed through: nothing accepted is lost.
+  /// After it every push is refused and counted.
+  /// @return true if all of it was denoised within the deadline
+  bool stop(std::chrono::milliseconds deadline);
+
+  /// Waits until no window waits or is computed. For tests and offline use.
+  void wait_idle();
+
+  [[nodiscard]] EngineSnapshot snapshot() const;
+  /// Every channel in the order of opening; `limit` bounds the copy.
+  [[nodiscard]] std::vector<ChannelSnapshot> channels(std::size_t limit) const;
+  [[nodiscard]] const EngineOptions& options() const noexcept;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gyrod::stream
