@@ -26,15 +26,17 @@ struct ImfFigures {
   double pcc = 0.0;
   /// Variance of the normalised autocorrelation function over all lags 0..N-1.
   double acf_variance = 0.0;
-  /// c_i = acf_variance * N / T_i: 0.45 for a noise IMF at any N (method.md B).
+  /// c_i = acf_variance * N / T_i: for noise 0.63 (IMF 1), 0.54, 0.51, falling to 0.4 with i, at any N.
   double acf_concentration = 0.0;
   /// Mean period T_i = 2 N / zero crossings, samples.
   double mean_period_samples = 0.0;
   /// Variance, unit^2.
   double energy = 0.0;
-  /// Energy over that of the channel's white noise in this IMF (the noise line); about 1 is noise. 0 if the floor is unknown.
+  /// Energy over that of the channel's white noise in this IMF (the noise line); about 1 is noise. 0 if the
+  /// floor is unknown.
   double excess = 0.0;
-  /// Order and coefficients of the AR model x[k] = a_1 x[k-1] + ... + a_p x[k-p] + w[k] (mixed IMFs only, else order 0).
+  /// Order and coefficients of the AR model x[k] = a_1 x[k-1] + ... + a_p x[k-p] + w[k] (mixed IMFs only,
+  /// else order 0).
   std::size_t ar_order = 0;
   std::array<double, kMaxArOrder> ar_coefficients{};
 };

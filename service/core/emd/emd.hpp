@@ -2,7 +2,8 @@
 ///
 ///   y(t) = sum_{i=1..n} IMF_i(t) + r(t),   IMF_1 the fastest.   [Yang2019] eq. (1), [Huang1998].
 ///
-/// A fixed sift count makes the time bounded and the result a plain function of the input: same input, same bits.
+/// A fixed sift count makes the time bounded and the result a plain function of the input: same input, same
+/// bits.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,19 @@ enum class BoundaryRule {
   kLinear,  ///< the two end extrema of a kind extrapolated linearly to the ends [Wu2009]
 };
 
+/// Which implementation of sifting runs. The vector kernels (baseline, AVX2, AVX-512) give the same bits on
+/// every processor; the reference differs from them by rounding.
+enum class EmdKernel {
+  kFastest,    ///< the widest vector kernel that this processor runs
+  kReference,  ///< plain loops and the Thomas algorithm: decides what is right
+  kBaseline,   ///< vectors of two, on any processor
+  kAvx2,
+  kAvx512,
+};
+
+/// Whether this build and this processor run a kernel.
+[[nodiscard]] bool is_available(EmdKernel kernel) noexcept;
+
 struct EmdOptions {
   /// Sifts per IMF. Unit: count, range 1..100. Source: method.md C.2 (its noise line holds for 10).
   int sifts = 10;
@@ -24,8 +38,8 @@ struct EmdOptions {
   int max_imfs = 24;
   /// Extrema that a remainder needs to hold another IMF. Unit: count, range 3..16.
   int min_extrema = 3;
-  /// A remainder whose peak-to-peak amplitude is below this part of the input's is residue: what is left is rounding noise.
-  /// Relative, never absolute, so that rad/s and deg/s give the same modes. Range 0..1.
+  /// A remainder whose peak-to-peak amplitude is below this part of the input's is residue: what is left is
+  /// rounding noise. Relative, never absolute, so that rad/s and deg/s give the same modes. Range 0..1.
   double min_relative_amplitude = 1e-12;
   BoundaryRule boundary = BoundaryRule::kMirror;
 };
@@ -40,8 +54,10 @@ struct EmdOptions {
 class Emd {
  public:
   /// @param max_samples longest signal that start() will be given, at least 1
-  /// @throws std::invalid_argument for an option outside its range
-  explicit Emd(std::size_t max_samples, EmdOptions options = {});
+  /// @param kernel for tests and benchmarks; leave it out elsewhere
+  /// @throws std::invalid_argument for an option outside its range, naming it
+  /// @pre is_available(kernel)
+  explicit Emd(std::size_t max_samples, EmdOptions options = {}, EmdKernel kernel = EmdKernel::kFastest);
   ~Emd();
   Emd(Emd&&) noexcept;
   Emd& operator=(Emd&&) noexcept;
@@ -52,11 +68,13 @@ class Emd {
 
   /// Takes the next IMF out of the remainder and writes it to `imf`.
   /// @pre imf.size() == the signal's size
-  /// @return false, with `imf` untouched, when the remainder is the residue: fewer than min_extrema extrema, below
-  ///         min_relative_amplitude, or max_imfs reached
+  /// @return false, with `imf` untouched, when the remainder is the residue: fewer than min_extrema extrema,
+  /// below min_relative_amplitude, max_imfs reached, or an IMF that would not be finite or would exceed 2^20
+  /// times the input (a guard: envelopes through a few extrema far apart can overshoot)
   [[nodiscard]] bool next_imf(std::span<double> imf) noexcept;
 
-  /// What has not been taken out yet; after next_imf() returned false, the residue r(t). Valid until the next call.
+  /// What has not been taken out yet; after next_imf() returned false, the residue r(t).
+  /// Valid until the next call.
   [[nodiscard]] std::span<const double> residue() const noexcept;
 
   [[nodiscard]] const EmdOptions& options() const noexcept;

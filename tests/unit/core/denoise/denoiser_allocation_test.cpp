@@ -1,0 +1,35 @@
+// Nothing is allocated after the constructor.
+#include <gtest/gtest.h>
+
+#include "support/allocation_counter.hpp"
+#include "unit/core/denoise/denoiser_support.hpp"
+
+namespace gyrod {
+namespace {
+
+using namespace testing;
+
+TEST(DenoiserAllocation, DenoisingAllocatesNothing) {
+  if (!counts_allocations()) {
+    GTEST_SKIP() << "the sanitizer brings its own heap";
+  }
+  const Signal window = sum(white_noise(1024, 1), tone(1024, 0.003), 0.5);
+  Signal out(1024);
+  core::WindowReport report;
+  std::size_t models = 0;
+  for (const auto rule : {core::ScreeningRule::kPaper, core::ScreeningRule::kWindowed}) {
+    const std::uint64_t before_constructor = allocations();
+    core::Denoiser denoiser(1024, with_rule(rule));
+    const std::uint64_t before = allocations();
+    EXPECT_GT(before, before_constructor) << "the counter counts";
+    for (const std::size_t size : {1024U, 16U, 999U}) {
+      denoiser.denoise(std::span(window).first(size), std::span(out).first(size), report);
+      models += report.k - report.j;
+    }
+    EXPECT_EQ(allocations(), before);
+  }
+  EXPECT_GT(models, 0U) << "AR models and Kalman filters were among what ran";
+}
+
+}  // namespace
+}  // namespace gyrod
