@@ -54,8 +54,8 @@ struct Counts {
 
 /// Histogram with fixed upper bounds in seconds; the last bucket is unbounded. Buckets are not cumulative.
 struct TimeHistogram {
-  static constexpr std::array<double, 15> kUpperBoundsS = {50e-6, 100e-6, 200e-6, 500e-6, 1e-3, 2e-3, 5e-3, 10e-3,
-                                                           20e-3, 50e-3,  0.1,    0.2,    0.5,  1.0,  5.0};
+  static constexpr std::array<double, 15> kUpperBoundsS = {
+      50e-6, 100e-6, 200e-6, 500e-6, 1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 0.1, 0.2, 0.5, 1.0, 5.0};
   std::array<std::uint64_t, kUpperBoundsS.size() + 1> buckets{};
   std::uint64_t count = 0;
   double sum_s = 0.0;

@@ -18,8 +18,9 @@
 
 namespace gyrod::stream {
 
-/// Where released samples go. Called by the thread that finished the work (a worker, or the caller of Engine in its
-/// inline mode), for one sensor by one thread at a time and in sequence order. Must not call back into the engine.
+/// Where released samples go. Called by the thread that finished the work (a worker, or the caller of Engine
+/// in its inline mode), for one sensor by one thread at a time and in sequence order. Must not call back into
+/// the engine.
 class Sink {
  public:
   virtual ~Sink() = default;
@@ -27,6 +28,9 @@ class Sink {
   virtual void on_samples(std::string_view sensor, std::span<const DenoisedSample> samples) noexcept = 0;
   /// One report a window, after the window's samples.
   virtual void on_report(std::string_view sensor, const NoiseReport& report) noexcept = 0;
+  /// The sensor has ended (end_of_stream), after the last of its samples and reports. A stop alone ends no
+  /// sensor.
+  virtual void on_end(std::string_view sensor) noexcept = 0;
 };
 
 struct EngineOptions {
@@ -46,7 +50,8 @@ struct EngineOptions {
   std::size_t max_channels = 1024;
   /// Sample rate, Hz; 0 estimates it from the stamps.
   double sample_rate_hz = 0.0;
-  /// Angular rates beyond this are refused, rad/s. Default: ten times the range of a common 1000 deg/s sensor.
+  /// Angular rates beyond this are refused, rad/s. Default: ten times the range of a common 1000 deg/s
+  /// sensor.
   double max_rate_radps = 175.0;
   /// Missing samples that are bridged by interpolation; a longer gap closes the window. 0..window_samples/4.
   std::size_t max_bridged_samples = 16;
@@ -57,8 +62,8 @@ struct EngineOptions {
 /// Seconds of a steady clock; tests inject their own.
 using Clock = std::function<double()>;
 
-/// Thread safety: push(), end_of_stream() and stop() may be called from any one thread at a time (the bus thread);
-/// the snapshots from any thread at any time.
+/// Thread safety: push(), end_of_stream() and stop() may be called from any one thread at a time (the bus
+/// thread); the snapshots from any thread at any time.
 class Engine {
  public:
   /// @throws std::invalid_argument for an option outside its range, naming it
@@ -68,19 +73,24 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Takes samples of one sensor, oldest first. Opens a channel for a new sensor. Refuses bad samples, each counted under
-  /// one reason. Waits while the sensor's windows wait for a worker (backpressure), at most until overload is declared.
-  /// Does not allocate once the channel is open.
-  void push(std::string_view sensor, std::span<const Sample> samples) noexcept;
+  /// Takes samples of one sensor, oldest first. Opens a channel for a new sensor. Refuses bad samples, each
+  /// counted under one reason. Waits while the sensor's windows wait for a worker (backpressure), at most
+  /// until overload is declared. Does not allocate once the channel is open.
+  /// @return samples accepted; the rest was refused
+  std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
 
-  /// The sensor has ended: releases what its channel holds (flagged kTail) and forgets its window; the channel and its
-  /// counts stay, and a later sample opens a new window.
+  /// The sensor has ended: releases what its channel holds (flagged kTail) and forgets its window; the
+  /// channel and its counts stay, and a later sample opens a new window.
   void end_of_stream(std::string_view sensor) noexcept;
 
-  /// Releases all that is held, denoised while the deadline lasts and then passed through: nothing accepted is lost.
-  /// After it every push is refused and counted.
+  /// Releases all that is held, denoised while the deadline lasts and then passed through: nothing accepted
+  /// is lost. After it every push is refused and counted.
   /// @return true if all of it was denoised within the deadline
   bool stop(std::chrono::milliseconds deadline);
+
+  /// What is not denoised in that time passes through undenoised, also what is pushed later: bounds the time
+  /// until stop(). Any thread.
+  void hurry_after(std::chrono::milliseconds deadline) noexcept;
 
   /// Waits until no window waits or is computed. For tests and offline use.
   void wait_idle();

@@ -47,9 +47,11 @@ struct DenoisedSample {
   /// SampleFlag bits.
   std::uint32_t flags = 0;
   NoiseSource noise_source = NoiseSource::kNone;
-  /// Standard deviation of the input's white noise as known when the sample was denoised, per axis, rad/s; 0 if unknown.
+  /// Standard deviation of the input's white noise as known when the sample was denoised, per axis, rad/s; 0
+  /// if unknown.
   std::array<double, kAxes> noise_floor_radps{};
-  /// Counts the windows (or models) of this sensor: the one that made this sample. Restarts at 1 when a channel opens.
+  /// Counts the windows (or models) of this sensor: the one that made this sample. Restarts at 1 when a
+  /// channel opens.
   std::uint64_t model_epoch = 0;
 };
 

@@ -1,0 +1,169 @@
+#include "stream/channel.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace gyrod::stream {
+namespace {
+
+HopSchedule::Options schedule_options(const EngineOptions& options) {
+  return {.window = static_cast<Position>(options.window_samples),
+          .hop = static_cast<Position>(options.hop_samples),
+          .max_hop = static_cast<Position>(options.max_hop_samples),
+          .lag = static_cast<Position>(options.lag_samples)};
+}
+
+/// The window at hand, those that wait, and the stretch up to the next, widest hop.
+std::size_t ring_capacity(const EngineOptions& options) {
+  return options.window_samples + options.max_queued_windows * options.hop_samples +
+         2 * options.max_hop_samples;
+}
+
+}  // namespace
+
+Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMethodFactory* models)
+    : gate({options.sample_rate_hz, options.max_rate_radps, options.max_bridged_samples}),
+      schedule(schedule_options(options)),
+      ring(ring_capacity(options)),
+      sensor_(std::move(sensor)),
+      jobs_(options.max_queued_windows) {
+  if (models != nullptr) fast_loop.emplace(*models, options.lag_samples);
+  hop_samples_ = static_cast<std::uint32_t>(options.hop_samples);
+}
+
+bool Channel::has_room() const {
+  Position oldest = schedule.oldest_needed(ring.end());
+  const std::lock_guard lock(mutex_);
+  if (job_count_ > 0) oldest = std::min(oldest, jobs_[first_job_].begin);
+  return ring.end() - oldest < static_cast<Position>(ring.capacity());
+}
+
+bool Channel::can_submit() const {
+  const std::lock_guard lock(mutex_);
+  return job_count_ < jobs_.size();
+}
+
+bool Channel::submit(const WindowJob& job) {
+  const std::lock_guard lock(mutex_);
+  assert(job_count_ < jobs_.size());
+  jobs_[(first_job_ + job_count_) % jobs_.size()] = job;
+  ++job_count_;
+  hop_samples_ = job.hop_samples;
+  rate_hz_ = job.sample_rate_hz;
+  return must_schedule();
+}
+
+bool Channel::must_schedule() {
+  if (owned_ || scheduled_ || job_count_ == 0) return false;
+  return scheduled_ = true;
+}
+
+void Channel::count_received() {
+  const std::lock_guard lock(mutex_);
+  // Received and in flight until judged: the sum holds at every moment.
+  ++counts_.received;
+  ++counts_.in_flight;
+}
+
+void Channel::count_rejected(RejectReason reason) {
+  const std::lock_guard lock(mutex_);
+  --counts_.in_flight;
+  ++counts_.rejected[static_cast<std::size_t>(reason)];
+}
+
+void Channel::count_accepted(const Verdict& verdict) {
+  if (verdict.kind == Verdict::Kind::kAccept && verdict.missing == 0) return;
+  const std::lock_guard lock(mutex_);
+  counts_.missing += verdict.missing;
+  counts_.gaps += verdict.kind == Verdict::Kind::kGap ? 1U : 0U;
+  counts_.restarts += verdict.kind == Verdict::Kind::kRestart ? 1U : 0U;
+}
+
+void Channel::count_bridged() {
+  const std::lock_guard lock(mutex_);
+  ++counts_.bridged;
+}
+
+void Channel::count_widened() {
+  const std::lock_guard lock(mutex_);
+  ++counts_.hops_widened;
+}
+
+std::optional<WindowJob> Channel::begin_work(bool scheduled) {
+  const std::lock_guard lock(mutex_);
+  if (scheduled) scheduled_ = false;
+  if (owned_ || job_count_ == 0) return std::nullopt;
+  owned_ = true;
+  return jobs_[first_job_];
+}
+
+bool Channel::end_work(bool denoised) {
+  const std::lock_guard lock(mutex_);
+  assert(owned_);
+  owned_ = false;
+  first_job_ = (first_job_ + 1) % jobs_.size();
+  --job_count_;
+  if (denoised) ++counts_.windows;
+  return must_schedule();
+}
+
+void Channel::offer_models(const ModelOrigin& origin) {
+  const std::lock_guard lock(mutex_);
+  offered_ = origin;
+}
+
+std::optional<ModelOrigin> Channel::take_models() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(offered_, std::nullopt);
+}
+
+void Channel::count_published(std::span<const DenoisedSample> samples) {
+  const auto flagged = [samples](SampleFlag flag) {
+    return static_cast<std::uint64_t>(
+        std::count_if(samples.begin(), samples.end(), [flag](const DenoisedSample& sample) {
+          return (sample.flags & static_cast<std::uint32_t>(flag)) != 0;
+        }));
+  };
+  const std::uint64_t warming_up = flagged(SampleFlag::kWarmingUp);
+  const std::uint64_t passed_through = flagged(SampleFlag::kPassThrough);
+  const std::lock_guard lock(mutex_);
+  counts_.published += samples.size();
+  counts_.in_flight -= samples.size();
+  counts_.warming_up += warming_up;
+  counts_.passed_through += passed_through;
+}
+
+void Channel::set_pass_through(bool active) {
+  const std::lock_guard lock(mutex_);
+  if (active && !pass_through_) ++counts_.overloads;
+  pass_through_ = active;
+}
+
+void Channel::keep_report(const NoiseReport& report) {
+  const std::lock_guard lock(mutex_);
+  last_report_ = report;
+}
+
+std::uint64_t Channel::next_epoch() {
+  const std::lock_guard lock(mutex_);
+  return ++epoch_;
+}
+
+std::optional<double> Channel::oldest_submission() const {
+  const std::lock_guard lock(mutex_);
+  if (job_count_ == 0) return std::nullopt;
+  return jobs_[first_job_].submitted_s;
+}
+
+Counts Channel::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+ChannelSnapshot Channel::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return {sensor_, counts_, last_report_, job_count_, hop_samples_, rate_hz_, pass_through_};
+}
+
+}  // namespace gyrod::stream

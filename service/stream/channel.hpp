@@ -1,0 +1,103 @@
+/// One sensor's state in the engine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "stream/counters.hpp"
+#include "stream/engine.hpp"
+#include "stream/fast_loop.hpp"
+#include "stream/hop_schedule.hpp"
+#include "stream/sample_gate.hpp"
+#include "stream/sample_ring.hpp"
+
+namespace gyrod::stream {
+
+/// Everything a channel owns, sized when it opens.
+///
+/// Two parties touch it. The *intake* (the thread that pushes) judges and appends samples and submits
+/// windows. The *owner* (at most one worker at a time, or the intake itself) works on the oldest window. What
+/// both touch lies behind the mutex: the job queue, the counts, the last report. The ring needs no lock: the
+/// owner reads only positions of submitted windows, and the intake never overwrites those (has_room()).
+class Channel {
+ public:
+  Channel(std::string sensor, const EngineOptions& options, const ModelMethodFactory* models);
+
+  [[nodiscard]] const std::string& sensor() const noexcept { return sensor_; }
+
+  // --- intake only
+  // ---------------------------------------------------------------------------------------------------
+  SampleGate gate;
+  HopSchedule schedule;
+  SampleRing ring;
+  std::optional<FastLoop> fast_loop;  ///< model methods only
+
+  /// True where one more position may be appended without overwriting what a window still needs.
+  [[nodiscard]] bool has_room() const;
+  /// True where one more window may be submitted.
+  [[nodiscard]] bool can_submit() const;
+  /// Puts a window behind the others. @return true if the channel must be handed to the scheduler
+  /// @pre can_submit()
+  [[nodiscard]] bool submit(const WindowJob& job);
+
+  void count_received();
+  void count_rejected(RejectReason reason);
+  /// Counts what the gate saw in an accepted sample.
+  void count_accepted(const Verdict& verdict);
+  void count_bridged();
+  void count_widened();
+  /// The origin of the models that were offered since the last call, if any.
+  [[nodiscard]] std::optional<ModelOrigin> take_models();
+
+  // --- owner
+  // ---------------------------------------------------------------------------------------------------------
+  /// Takes ownership of the oldest window; none where there is none or another owner is at work.
+  /// @param scheduled the caller took the channel from the scheduler's queue
+  [[nodiscard]] std::optional<WindowJob> begin_work(bool scheduled);
+  /// The window is done and released: drops it, gives ownership up.
+  /// @param denoised false where it was passed through (overload step 2, or too short)
+  /// @return true if the channel must be handed to the scheduler again
+  [[nodiscard]] bool end_work(bool denoised);
+  /// Models of this segment are ready for the fast loop.
+  void offer_models(const ModelOrigin& origin);
+
+  // --- any thread
+  // ----------------------------------------------------------------------------------------------------
+  /// Counts released samples.
+  void count_published(std::span<const DenoisedSample> samples);
+  /// Overload step 2 is in force, or no longer.
+  void set_pass_through(bool active);
+  void keep_report(const NoiseReport& report);
+  [[nodiscard]] std::uint64_t next_epoch();
+  /// Submission time of the oldest window not done; none where there is none.
+  [[nodiscard]] std::optional<double> oldest_submission() const;
+  [[nodiscard]] Counts counts() const;
+  [[nodiscard]] ChannelSnapshot snapshot() const;
+
+ private:
+  /// The channel has work, no owner and no place in the scheduler's queue: takes the place.
+  [[nodiscard]] bool must_schedule();
+
+  std::string sensor_;
+  mutable std::mutex mutex_;
+  std::vector<WindowJob> jobs_;  ///< ring of the windows not done, oldest at first_job_
+  std::size_t first_job_ = 0;
+  std::size_t job_count_ = 0;
+  bool owned_ = false;
+  bool scheduled_ = false;  ///< stands in the scheduler's queue
+  Counts counts_;
+  NoiseReport last_report_;
+  std::uint64_t epoch_ = 0;
+  bool pass_through_ = false;
+  std::optional<ModelOrigin> offered_;
+  std::uint32_t hop_samples_ = 0;
+  double rate_hz_ = 0.0;
+};
+
+}  // namespace gyrod::stream

@@ -1,0 +1,91 @@
+/// Inside of Engine: the intake (what push() does) and the work (what a worker does).
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "stream/channel.hpp"
+#include "stream/engine.hpp"
+#include "stream/registry.hpp"
+#include "stream/scheduler.hpp"
+#include "stream/workbench.hpp"
+
+namespace gyrod::stream {
+
+/// Lock order: registry, then channel, then scheduler or idle; none is held while the sink or a method runs.
+class Engine::Impl {
+ public:
+  Impl(EngineOptions options, MethodFactory method, Sink& sink, Clock clock);
+
+  std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
+  void end_of_stream(std::string_view sensor) noexcept;
+  void hurry_after(std::chrono::milliseconds deadline) noexcept;
+  bool stop(std::chrono::milliseconds deadline);
+  void wait_idle();
+  [[nodiscard]] EngineSnapshot snapshot() const;
+  [[nodiscard]] std::vector<ChannelSnapshot> channels(std::size_t limit) const;
+  [[nodiscard]] const EngineOptions& options() const noexcept { return options_; }
+
+ private:
+  // Intake, in the thread that pushes (intake.cpp).
+  [[nodiscard]] Channel* channel_for(std::string_view sensor, RejectReason& refusal);
+  void refuse(std::size_t samples, RejectReason reason);
+  bool take(Channel& channel, const Sample& sample);
+  void bridge(Channel& channel, const Sample& next, std::uint64_t count);
+  void append(Channel& channel, const Sample& sample, bool measured);
+  void hop(Channel& channel);
+  void close_segment(Channel& channel, bool ends_stream);
+  void adjust_hop(Channel& channel);
+
+  // Fast loop of model methods, in the thread that pushes (intake_models.cpp).
+  void step_fast_loop(Channel& channel, const Sample& newest);
+  [[nodiscard]] bool adopt_models(Channel& channel);
+  void release_estimate(Channel& channel, Position position, const std::array<double, kAxes>& estimate,
+                        std::uint32_t flags);
+  void release_held(Channel& channel);
+  void flush_outbox(Channel& channel);
+
+  // Work, in a worker, or in the thread that pushes where that must not wait any longer (engine.cpp).
+  void submit(Channel& channel, WindowJob job);
+  bool work(Channel& channel, Workbench& bench, bool scheduled);
+  void release(Channel& channel, const WindowJob& job, const Workbench& bench);
+  void release_report(Channel& channel, const WindowJob& job, const NoiseReport& report);
+  [[nodiscard]] bool too_late(double submitted_s);
+  /// Waits while the condition holds; windows that grow too old meanwhile are passed through here.
+  template <typename Condition>
+  void wait_while(Channel& channel, const Condition& condition) {
+    while (condition()) {
+      const auto oldest = channel.oldest_submission();
+      if (oldest && too_late(*oldest) && work(channel, *benches_.back(), false)) continue;
+      wait_for_progress();
+    }
+  }
+  void wait_for_progress();
+
+  EngineOptions options_;
+  MethodFactory method_;
+  Sink& sink_;
+  Clock clock_;
+  Registry registry_;
+  mutable std::mutex homeless_mutex_;
+  Counts homeless_;                                  ///< samples refused before they had a channel
+  std::vector<std::unique_ptr<Workbench>> benches_;  ///< one a worker, and the intake's at the end
+  std::atomic<bool> stopping_{false};
+  std::atomic<double> deadline_s_{std::numeric_limits<double>::infinity()};  ///< of the stop
+  std::atomic<bool> hurry_{false};  ///< the stop's deadline has passed: release everything undenoised
+  mutable std::mutex idle_mutex_;
+  std::condition_variable window_done_;
+  std::size_t outstanding_ = 0;  ///< windows submitted and not done, behind idle_mutex_
+  std::vector<DenoisedSample> outbox_;
+  std::optional<Scheduler> scheduler_;  ///< last: its threads use all of the above
+};
+
+}  // namespace gyrod::stream

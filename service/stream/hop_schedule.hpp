@@ -1,0 +1,114 @@
+/// When a channel makes a window, which positions it holds, and which it releases.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "stream/sample.hpp"
+#include "stream/sample_ring.hpp"
+
+namespace gyrod::stream {
+
+/// One window to work on.
+struct WindowJob {
+  Position begin = 0;  ///< window is [begin, end)
+  Position end = 0;
+  Position release_begin = 0;  ///< part to be released, within the window
+  Position release_end = 0;
+  std::uint32_t flags = 0;        ///< SampleFlag bits of the released samples
+  std::uint32_t hop_samples = 0;  ///< hop in use
+  std::uint64_t segment = 0;      ///< counts the unbroken stretches of a channel
+  bool ends_stream = false;       ///< the sensor has ended with this window
+  double sample_rate_hz = 0.0;    ///< 0 while unknown
+  double submitted_s = 0.0;       ///< engine clock
+};
+
+/// Cuts a channel's positions into windows. A window of at most `window` positions ends every `hop` positions
+/// of a segment (an unbroken stretch); it releases what has not been released up to `lag` before its end.
+/// Closing a segment releases the rest. Depends on positions alone, never on time, except for widen(), which
+/// is overload step 1.
+class HopSchedule {
+ public:
+  struct Options {
+    Position window = 1024;
+    Position hop = 32;
+    Position max_hop = 256;
+    Position lag = 16;
+  };
+
+  explicit HopSchedule(const Options& options) noexcept : options_(options), hop_(options.hop) {}
+
+  /// True where a whole number of configured hops lies in the segment before `end`.
+  [[nodiscard]] bool at_boundary(Position end) const noexcept {
+    return (end - segment_begin_) % options_.hop == 0;
+  }
+
+  /// True where, position `end - 1` having been appended, a window is due.
+  [[nodiscard]] bool due(Position end) const noexcept { return at_boundary(end) && end - last_end_ >= hop_; }
+
+  /// The window that ends before `end`. @pre due(end)
+  [[nodiscard]] WindowJob take(Position end) noexcept {
+    last_end_ = end;
+    const bool full = end - segment_begin_ >= options_.window;
+    std::uint32_t flags = full ? 0U : static_cast<std::uint32_t>(SampleFlag::kWarmingUp);
+    if (hop_ > options_.hop) flags |= static_cast<std::uint32_t>(SampleFlag::kHopWidened);
+    return job(end, std::max(released_, end - options_.lag), flags);
+  }
+
+  /// Ends the segment before `end`: the window that releases what is left. Where nothing is left it is an
+  /// empty window.
+  [[nodiscard]] WindowJob close(Position end) noexcept {
+    const bool full = end - segment_begin_ >= options_.window;
+    std::uint32_t flags = static_cast<std::uint32_t>(SampleFlag::kTail);
+    if (!full) flags |= static_cast<std::uint32_t>(SampleFlag::kWarmingUp);
+    WindowJob last = job(end, end, flags);
+    if (last.release_begin == end) last.begin = end;
+    segment_begin_ = last_end_ = released_ = end;
+    ++segment_;
+    return last;
+  }
+
+  /// Overload step 1: doubles the hop up to its maximum. @return false where it is there already
+  bool widen() noexcept {
+    const Position widest = options_.max_hop / options_.hop * options_.hop;
+    if (hop_ >= widest) return false;
+    hop_ = std::min(2 * hop_, widest);
+    return true;
+  }
+  /// Recovery: back to the configured hop.
+  void narrow() noexcept { hop_ = options_.hop; }
+
+  [[nodiscard]] Position hop() const noexcept { return hop_; }
+  [[nodiscard]] bool widened() const noexcept { return hop_ > options_.hop; }
+  [[nodiscard]] Position segment_begin() const noexcept { return segment_begin_; }
+  [[nodiscard]] std::uint64_t segment() const noexcept { return segment_; }
+  /// Oldest position that the next window can need.
+  [[nodiscard]] Position oldest_needed(Position end) const noexcept {
+    return std::max(segment_begin_, end - options_.window);
+  }
+
+ private:
+  [[nodiscard]] WindowJob job(Position end, Position release_end, std::uint32_t flags) noexcept {
+    WindowJob made;
+    made.begin = std::max(segment_begin_, end - options_.window);
+    made.end = end;
+    made.release_begin = released_;
+    made.release_end = release_end;
+    made.flags = flags;
+    made.hop_samples = static_cast<std::uint32_t>(hop_);
+    made.segment = segment_;
+    released_ = release_end;
+    return made;
+  }
+
+  Options options_;
+  Position hop_;
+  Position segment_begin_ = 0;
+  Position last_end_ = 0;
+  Position released_ = 0;
+  std::uint64_t segment_ = 0;
+};
+
+}  // namespace gyrod::stream

@@ -1,0 +1,121 @@
+/// What push() does: judge, append, cut into windows.
+#include <algorithm>
+#include <new>
+#include <string>
+
+#include "core/signal/interpolation.hpp"
+#include "stream/engine_impl.hpp"
+
+namespace gyrod::stream {
+
+std::size_t Engine::Impl::push(std::string_view sensor, std::span<const Sample> samples) noexcept {
+  RejectReason refusal{};
+  Channel* channel = channel_for(sensor, refusal);
+  if (channel == nullptr) {
+    refuse(samples.size(), refusal);
+    return 0;
+  }
+  std::size_t accepted = 0;
+  for (const Sample& sample : samples) accepted += take(*channel, sample) ? 1U : 0U;
+  flush_outbox(*channel);
+  return accepted;
+}
+
+/// The sensor's channel, opened if it is new; none, and why, where its samples are refused.
+Channel* Engine::Impl::channel_for(std::string_view sensor, RejectReason& refusal) {
+  refusal = RejectReason::kShuttingDown;
+  if (stopping_) return nullptr;
+  if (Channel* known = registry_.find(sensor)) return known;
+  refusal = RejectReason::kBadSensorId;
+  if (!is_valid_sensor_id(sensor)) return nullptr;
+  refusal = RejectReason::kTooManyChannels;
+  if (registry_.full()) return nullptr;
+  try {
+    const auto* models = std::get_if<ModelMethodFactory>(&method_);
+    return &registry_.open(std::make_unique<Channel>(std::string{sensor}, options_, models));
+  } catch (const std::bad_alloc&) {
+    return nullptr;  // no memory for one more channel: the ones that are open live on
+  }
+}
+
+void Engine::Impl::refuse(std::size_t samples, RejectReason reason) {
+  const std::lock_guard lock(homeless_mutex_);
+  homeless_.received += samples;
+  homeless_.rejected[static_cast<std::size_t>(reason)] += samples;
+}
+
+/// @return false where the sample was refused
+bool Engine::Impl::take(Channel& channel, const Sample& sample) {
+  channel.count_received();
+  const Verdict verdict = channel.gate.judge(sample);
+  if (verdict.kind == Verdict::Kind::kRefuse) {
+    channel.count_rejected(verdict.reason);
+    return false;
+  }
+  channel.count_accepted(verdict);
+  if (verdict.kind == Verdict::Kind::kAccept) {
+    bridge(channel, sample, verdict.bridge);
+  } else {
+    close_segment(channel, false);
+  }
+  append(channel, sample, true);
+  return true;
+}
+
+void Engine::Impl::bridge(Channel& channel, const Sample& next, std::uint64_t count) {
+  if (count == 0) return;
+  const Sample left = channel.ring.at(channel.ring.end() - 1);
+  for (std::uint64_t step = 0; step < count; ++step) {
+    Sample filled = left;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      filled.rate_radps[axis] = core::bridge(left.rate_radps[axis], next.rate_radps[axis], step, count);
+    }
+    append(channel, filled, false);
+    channel.count_bridged();
+  }
+}
+
+void Engine::Impl::append(Channel& channel, const Sample& sample, bool measured) {
+  wait_while(channel, [&channel] { return !channel.has_room(); });
+  channel.ring.append(sample, measured);
+  if (channel.fast_loop) step_fast_loop(channel, sample);
+  if (channel.schedule.at_boundary(channel.ring.end())) hop(channel);
+}
+
+/// A whole number of hops is full: makes the window that is due.
+void Engine::Impl::hop(Channel& channel) {
+  adjust_hop(channel);
+  if (!channel.schedule.due(channel.ring.end())) return;
+  // A model method's fast loop takes over the models of the window before, and waits for them: that fixes the
+  // moment.
+  if (channel.fast_loop && !adopt_models(channel)) return;
+  submit(channel, channel.schedule.take(channel.ring.end()));
+}
+
+/// Overload step 1: windows that wait too long come less often.
+void Engine::Impl::adjust_hop(Channel& channel) {
+  const auto oldest = channel.oldest_submission();
+  if (!oldest) {
+    channel.schedule.narrow();
+  } else if (clock_() - *oldest > 0.5 * options_.max_delay_s && channel.schedule.widen()) {
+    channel.count_widened();
+  }
+}
+
+/// Releases what the segment holds; the next sample begins a new window.
+void Engine::Impl::close_segment(Channel& channel, bool ends_stream) {
+  if (channel.fast_loop) release_held(channel);
+  WindowJob tail = channel.schedule.close(channel.ring.end());
+  if (channel.fast_loop) tail.begin = tail.end;
+  tail.ends_stream = ends_stream;
+  if (tail.begin < tail.end || ends_stream) submit(channel, tail);
+}
+
+void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
+  Channel* channel = registry_.find(sensor);
+  if (channel == nullptr || stopping_ || !channel->gate.is_open()) return;
+  close_segment(*channel, true);
+  channel->gate.reopen();
+}
+
+}  // namespace gyrod::stream

@@ -1,0 +1,106 @@
+#include "stream/sample_gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gyrod::stream {
+
+SampleGate::SampleGate(const GateOptions& options) noexcept
+    : options_(options), period_(options.sample_rate_hz) {}
+
+Verdict SampleGate::judge(const Sample& sample) noexcept {
+  if (const auto reason = unfit(sample)) {
+    if (open_ && sample.sequence > last_sequence_) ++refused_ahead_;
+    return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
+  }
+  if (!open_) {
+    remember(sample);
+    return {};
+  }
+  if (const auto reason = stale(sample)) {
+    if (!begins_anew(sample)) return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
+    reopen();
+    remember(sample);
+    return {.kind = Verdict::Kind::kRestart};
+  }
+  return advance(sample);
+}
+
+void SampleGate::reopen() noexcept {
+  open_ = false;
+  seen_ = 0;
+  suspects_ = 0;
+  refused_ahead_ = 0;
+}
+
+std::optional<RejectReason> SampleGate::unfit(const Sample& sample) const noexcept {
+  for (const double rate : sample.rate_radps) {
+    if (!std::isfinite(rate)) return RejectReason::kNotFinite;
+    if (std::abs(rate) > options_.max_rate_radps) return RejectReason::kOutOfRange;
+  }
+  return std::nullopt;
+}
+
+std::optional<RejectReason> SampleGate::stale(const Sample& sample) const noexcept {
+  const bool unnumbered = sample.sequence == 0 && last_sequence_ == 0;
+  if (!unnumbered && sample.sequence <= last_sequence_) {
+    const std::uint64_t age = last_sequence_ - sample.sequence;
+    const bool seen = age < 64 && ((seen_ >> age) & 1U) != 0;
+    return seen ? RejectReason::kDuplicate : RejectReason::kOutOfOrder;
+  }
+  if (sample.stamp_ns > last_stamp_ns_) return std::nullopt;
+  return unnumbered && sample.stamp_ns == last_stamp_ns_ ? RejectReason::kDuplicate
+                                                         : RejectReason::kTimeBackwards;
+}
+
+bool SampleGate::begins_anew(const Sample& sample) noexcept {
+  const bool numbered = sample.sequence != 0 || suspect_.sequence != 0;
+  const bool agrees = suspects_ > 0 && sample.stamp_ns > suspect_.stamp_ns &&
+                      (!numbered || sample.sequence > suspect_.sequence);
+  suspects_ = agrees ? suspects_ + 1 : 1;
+  suspect_ = sample;
+  return suspects_ >= kAnew;
+}
+
+std::uint64_t SampleGate::missing_by_stamp(std::int64_t interval_ns) const noexcept {
+  if (!(period_.period_ns() > 0.0)) return 0;
+  if (!period_.regular() && interval_ns <= kLongestPauseNs) return 0;
+  const double periods = std::round(static_cast<double>(interval_ns) / period_.period_ns());
+  return periods > 1.0 ? static_cast<std::uint64_t>(periods) - 1 : 0;
+}
+
+Verdict SampleGate::advance(const Sample& sample) noexcept {
+  const std::uint64_t step = sample.sequence - last_sequence_;
+  // Wrapping subtraction: stamps of opposite ends of the clock differ by more than an int64 holds.
+  const auto interval_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_ns) -
+                                                     static_cast<std::uint64_t>(last_stamp_ns_));
+  const bool renumbered = step > kLargestLoss || interval_ns < 0;
+  const std::uint64_t by_sequence = renumbered || step == 0 ? 0 : step - 1;
+  const std::uint64_t absent = renumbered ? 0 : std::max(by_sequence, missing_by_stamp(interval_ns));
+  const std::uint64_t missing = absent - std::min(absent, refused_ahead_);
+  const bool paused = interval_ns > kLongestPauseNs && absent == 0;
+
+  // Every interval counts, also one in which samples seem to be missing: a sensor that changes its rate is
+  // thus noticed.
+  if (!renumbered && !paused)
+    period_.add(interval_ns / static_cast<std::int64_t>(std::max<std::uint64_t>(step, 1)));
+  if (renumbered || paused || absent > options_.max_bridged_samples) {
+    reopen();
+    remember(sample);
+    return {.kind = renumbered ? Verdict::Kind::kRestart : Verdict::Kind::kGap, .missing = missing};
+  }
+  remember(sample);
+  return {.kind = Verdict::Kind::kAccept, .bridge = absent, .missing = missing};
+}
+
+void SampleGate::remember(const Sample& sample) noexcept {
+  const std::uint64_t step = sample.sequence - last_sequence_;
+  seen_ = open_ && step < 64 ? (seen_ << step) | 1U : 1U;
+  open_ = true;
+  last_sequence_ = sample.sequence;
+  last_stamp_ns_ = sample.stamp_ns;
+  refused_ahead_ = 0;
+  suspects_ = 0;
+}
+
+}  // namespace gyrod::stream

@@ -1,0 +1,109 @@
+#include "stream/workbench.hpp"
+
+#include <type_traits>
+
+namespace gyrod::stream {
+namespace {
+
+auto make_method(const MethodFactory& factory, std::size_t window_samples) {
+  using Method = std::variant<std::unique_ptr<WindowMethod>, std::unique_ptr<ModelMethod>>;
+  return std::visit([&](const auto& kind) -> Method { return kind.method(window_samples); }, factory);
+}
+
+}  // namespace
+
+Workbench::Workbench(const EngineOptions& options, const MethodFactory& factory)
+    : method_(make_method(factory, options.window_samples)),
+      window_(options.window_samples),
+      denoised_(options.window_samples) {
+  samples_.reserve(options.window_samples);
+}
+
+void Workbench::work(Channel& channel, const WindowJob& job, bool pass_through) noexcept {
+  const auto length = static_cast<std::size_t>(job.end - job.begin);
+  has_report_ = !pass_through && length >= min_samples();
+  samples_.clear();
+  if (std::holds_alternative<std::unique_ptr<WindowMethod>>(method_)) {
+    collect(channel, job);
+    if (has_report_) {
+      denoise(*std::get<std::unique_ptr<WindowMethod>>(method_), channel, job);
+    } else {
+      for (auto& sample : samples_) sample.flags |= static_cast<std::uint32_t>(SampleFlag::kPassThrough);
+    }
+  } else if (has_report_) {
+    fit(*std::get<std::unique_ptr<ModelMethod>>(method_), channel, job);
+  }
+  if (has_report_) describe(channel, job);
+}
+
+/// The measured samples of the part to be released, as they came.
+void Workbench::collect(const Channel& channel, const WindowJob& job) noexcept {
+  for (Position position = job.release_begin; position < job.release_end; ++position) {
+    if (!channel.ring.measured(position)) continue;
+    const Sample sample = channel.ring.at(position);
+    samples_.push_back({.sequence = sample.sequence,
+                        .stamp_ns = sample.stamp_ns,
+                        .rate_radps = sample.rate_radps,
+                        .flags = job.flags});
+  }
+}
+
+void Workbench::denoise(WindowMethod& method, const Channel& channel, const WindowJob& job) noexcept {
+  const auto length = static_cast<std::size_t>(job.end - job.begin);
+  const std::span<double> window{window_.data(), length};
+  const std::span<double> denoised{denoised_.data(), length};
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    channel.ring.copy(axis, job.begin, window);
+    method.denoise(window, denoised, report_.axis[axis]);
+    std::size_t index = 0;
+    for (Position position = job.release_begin; position < job.release_end; ++position) {
+      if (!channel.ring.measured(position)) continue;
+      samples_[index].rate_radps[axis] = denoised[static_cast<std::size_t>(position - job.begin)];
+      samples_[index].noise_floor_radps[axis] = report_.axis[axis].noise_floor;
+      ++index;
+    }
+  }
+}
+
+void Workbench::fit(ModelMethod& method, Channel& channel, const WindowJob& job) noexcept {
+  const std::span<double> window{window_.data(), static_cast<std::size_t>(job.end - job.begin)};
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    channel.ring.copy(axis, job.begin, window);
+    method.fit(window, channel.fast_loop->model(axis), report_.axis[axis]);
+  }
+}
+
+/// The report's frame around the axes' figures, and the epoch of the samples.
+void Workbench::describe(Channel& channel, const WindowJob& job) noexcept {
+  const Sample newest = channel.ring.at(job.end - 1);
+  report_.model_epoch = channel.next_epoch();
+  report_.last_sequence = newest.sequence;
+  report_.last_stamp_ns = newest.stamp_ns;
+  report_.lag_samples = static_cast<std::uint32_t>(job.end - job.release_end);
+  report_.hop_samples = job.hop_samples;
+  report_.sample_rate_hz = job.sample_rate_hz;
+  report_.noise_source = NoiseSource::kImf1;
+  report_.flags = job.flags;
+  for (auto& sample : samples_) {
+    sample.model_epoch = report_.model_epoch;
+    sample.noise_source = report_.noise_source;
+  }
+}
+
+std::size_t Workbench::min_samples() const noexcept {
+  return std::visit([](const auto& method) { return method->min_samples(); }, method_);
+}
+
+void Workbench::count_times(double window_time_s, double added_latency_s) {
+  const std::lock_guard lock(times_mutex_);
+  window_time_.add(window_time_s);
+  added_latency_.add(added_latency_s);
+}
+
+void Workbench::add_times_to(EngineSnapshot& snapshot) const {
+  const std::lock_guard lock(times_mutex_);
+  snapshot.window_time += window_time_;
+  snapshot.added_latency += added_latency_;
+}
+
+}  // namespace gyrod::stream

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include "stream/engine.hpp"
+#include "stream/paper_method.hpp"
+#include "support/allocation_counter.hpp"
+#include "support/samples.hpp"
+#include "support/toy_methods.hpp"
+
+namespace gyrod::stream {
+namespace {
+
+class NullSink final : public Sink {
+ public:
+  void on_samples(std::string_view, std::span<const DenoisedSample>) noexcept override {}
+  void on_report(std::string_view, const NoiseReport&) noexcept override {}
+  void on_end(std::string_view) noexcept override {}
+};
+
+std::uint64_t allocations_after_warm_up(const MethodFactory& method, std::size_t workers) {
+  EngineOptions options;
+  options.window_samples = 256;
+  options.workers = workers;
+  options.max_hop_samples = 128;
+  options.max_delay_s = 3600.0;
+  NullSink sink;
+  Engine engine(options, method, sink);
+  const auto samples = testing::noisy_samples(4000);
+  const std::span<const Sample> all{samples};
+  engine.push("imu", all.first(1000));
+  engine.wait_idle();
+  const std::uint64_t before = testing::allocations();
+  for (std::size_t n = 1000; n < 4000; n += 8) engine.push("imu", all.subspan(n, 8));
+  engine.wait_idle();
+  return testing::allocations() - before;
+}
+
+TEST(SamplePath, AllocatesNothingAfterWarmUp) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
+  EXPECT_EQ(allocations_after_warm_up(paper_method({}), 0), 0U);
+  EXPECT_EQ(allocations_after_warm_up(paper_method({}), 2), 0U);
+  EXPECT_EQ(allocations_after_warm_up(testing::last_sample_method(), 2), 0U);
+}
+
+TEST(SamplePath, TheCounterCounts) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
+  const std::uint64_t before = testing::allocations();
+  const auto samples = testing::noisy_samples(10);
+  EXPECT_EQ(samples.size(), 10U);
+  EXPECT_GT(testing::allocations(), before);
+}
+
+}  // namespace
+}  // namespace gyrod::stream

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine_support.hpp"
+#include "stream/engine.hpp"
+#include "stream/paper_method.hpp"
+
+namespace gyrod::stream {
+namespace {
+
+TEST(EngineWithModels, UsesAModelFromTheSampleAfterTheNextHopOn) {
+  RecordingSink sink;
+  EngineOptions options = small_options(2);
+  Engine engine(options, testing::last_sample_method(), sink);
+  engine.push("imu", counting_samples(320));
+  engine.end_of_stream("imu");
+  const auto output = sink.samples("imu");
+  ASSERT_EQ(output.size(), 320U);
+  for (std::size_t n = 0; n + 16 < output.size(); ++n) {
+    // The answer for sample n is given when sample n + 16 arrives. A model of the window that ends before
+    // sample 32 m, whose last sample is 32 m - 1, serves samples 32 (m + 1) and later.
+    const std::size_t arrival = n + 16;
+    const std::size_t m = arrival / 32 >= 1 ? arrival / 32 - 1 : 0;
+    const double model = m == 0 ? 0.0 : 32.0 * static_cast<double>(m) - 1.0;
+    EXPECT_EQ(output[n].rate_radps[0], static_cast<double>(n) + 1000.0 * model) << "sample " << n;
+  }
+}
+
+TEST(EngineWithModels, ADelayedWorkerChangesNoBits) {
+  const auto run = [](std::size_t workers, const std::function<void()>& on_window) {
+    RecordingSink sink;
+    Engine engine(small_options(workers), testing::last_sample_method(on_window), sink);
+    for (const Sample& sample : counting_samples(640)) engine.push("imu", {&sample, 1});
+    engine.end_of_stream("imu");
+    engine.wait_idle();
+    return sink.samples("imu");
+  };
+  const auto slow = [] {
+    for (int i = 0; i < 1000; ++i) std::this_thread::yield();
+  };
+  EXPECT_TRUE(same_bits(run(1, slow), run(0, {})));
+}
+
+TEST(EngineWithModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooLate) {
+  RecordingSink sink;
+  Gatekeeper gate;
+  std::atomic<double> now{0.0};
+  EngineOptions options = small_options(1);
+  options.max_delay_s = 1.0;
+  Engine engine(options, testing::last_sample_method([&gate] { gate.pass(); }), sink,
+                [&now] { return now.load(); });
+  gate.set_open(false);
+  engine.push("imu", counting_samples(40));
+  now = 5.0;
+  engine.push("imu", counting_samples(100, 40));  // would wait for ever if it waited for the worker
+  const auto output = sink.samples("imu");
+  ASSERT_EQ(output.size(), 124U);
+  EXPECT_EQ(output.back().rate_radps[0], 123.0) << "no model yet, but an answer";
+  EXPECT_NE(output.back().flags & static_cast<std::uint32_t>(SampleFlag::kHopWidened), 0U);
+  gate.set_open(true);
+  engine.stop(std::chrono::seconds{60});
+  expect_conserved(engine.snapshot().totals);
+  EXPECT_EQ(engine.snapshot().totals.in_flight, 0U);
+}
+
+TEST(EngineWithModels, ReleasesTheHeldSamplesAtALongGap) {
+  RecordingSink sink;
+  Engine engine(small_options(1), testing::last_sample_method(), sink);
+  engine.push("imu", counting_samples(100));
+  engine.push("imu", counting_samples(100, 1000));
+  engine.end_of_stream("imu");
+  const auto output = sink.samples("imu");
+  ASSERT_EQ(output.size(), 200U);
+  EXPECT_EQ(output[99].sequence, 99U);
+  EXPECT_EQ(output[100].sequence, 1000U);
+  EXPECT_EQ(output[100].rate_radps[0], 1000.0)
+      << "models of the stretch before the gap are not used after it";
+  expect_conserved(engine.snapshot().totals);
+}
+
+}  // namespace
+}  // namespace gyrod::stream

@@ -1,0 +1,194 @@
+#include "stream/sample_gate.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/samples.hpp"
+
+namespace gyrod::stream {
+namespace {
+
+using testing::kPeriodNs;
+using testing::sample_at;
+using Kind = Verdict::Kind;
+
+class SampleGateTest : public ::testing::Test {
+ protected:
+  void feed(std::uint64_t count, std::uint64_t first = 0) {
+    for (std::uint64_t n = first; n < first + count; ++n)
+      ASSERT_EQ(gate_.judge(sample_at(n)).kind, Kind::kAccept);
+  }
+  void expect_refused(const Sample& sample, RejectReason reason) {
+    const Verdict verdict = gate_.judge(sample);
+    EXPECT_EQ(verdict.kind, Kind::kRefuse);
+    EXPECT_EQ(verdict.reason, reason);
+  }
+  SampleGate gate_{{.sample_rate_hz = 0.0, .max_rate_radps = 175.0, .max_bridged_samples = 16}};
+};
+
+TEST_F(SampleGateTest, RefusesValuesThatAreNotFinite) {
+  Sample sample = sample_at(0);
+  sample.rate_radps[2] = std::nan("");
+  expect_refused(sample, RejectReason::kNotFinite);
+  sample.rate_radps[2] = -std::numeric_limits<double>::infinity();
+  expect_refused(sample, RejectReason::kNotFinite);
+}
+
+TEST_F(SampleGateTest, RefusesRatesBeyondTheRangeButNotAtIt) {
+  expect_refused(sample_at(0, 1e300), RejectReason::kOutOfRange);
+  expect_refused(sample_at(0, -175.1), RejectReason::kOutOfRange);
+  EXPECT_EQ(gate_.judge(sample_at(0, 175.0)).kind, Kind::kAccept);
+}
+
+TEST_F(SampleGateTest, TellsADuplicateFromALateSample) {
+  feed(5);
+  EXPECT_EQ(gate_.judge(sample_at(7)).kind, Kind::kAccept);
+  expect_refused(sample_at(7), RejectReason::kDuplicate);
+  expect_refused(sample_at(3), RejectReason::kDuplicate);
+  expect_refused(sample_at(6), RejectReason::kOutOfOrder);
+}
+
+TEST_F(SampleGateTest, RefusesAStampThatGoesBackOrStands) {
+  feed(5);
+  Sample sample = sample_at(5);
+  sample.stamp_ns = 4 * kPeriodNs;
+  expect_refused(sample, RejectReason::kTimeBackwards);
+  sample.stamp_ns = 0;
+  expect_refused(sample, RejectReason::kTimeBackwards);
+  EXPECT_EQ(gate_.judge(sample_at(5)).kind, Kind::kAccept) << "the good sample of that number still comes";
+}
+
+TEST_F(SampleGateTest, BridgesAShortLossByNumber) {
+  feed(100);
+  const Verdict verdict = gate_.judge(sample_at(103));
+  EXPECT_EQ(verdict.kind, Kind::kAccept);
+  EXPECT_EQ(verdict.bridge, 3U);
+  EXPECT_EQ(verdict.missing, 3U);
+}
+
+TEST_F(SampleGateTest, ClosesTheWindowAtALongLoss) {
+  feed(100);
+  const Verdict verdict = gate_.judge(sample_at(117));
+  EXPECT_EQ(verdict.kind, Kind::kGap);
+  EXPECT_EQ(verdict.missing, 17U);
+}
+
+TEST_F(SampleGateTest, BridgesTheLongestAllowedLoss) {
+  feed(100);
+  EXPECT_EQ(gate_.judge(sample_at(116)).bridge, 16U);
+}
+
+TEST_F(SampleGateTest, SeesRowsCutOutOfARecordingByRegularStamps) {
+  feed(100);
+  Sample sample = sample_at(100);
+  sample.stamp_ns = 103 * kPeriodNs;
+  const Verdict verdict = gate_.judge(sample);
+  EXPECT_EQ(verdict.kind, Kind::kAccept);
+  EXPECT_EQ(verdict.bridge, 3U);
+}
+
+TEST_F(SampleGateTest, DoesNotCountARefusedSampleAsMissing) {
+  feed(10);
+  expect_refused(sample_at(10, std::nan("")), RejectReason::kNotFinite);
+  const Verdict verdict = gate_.judge(sample_at(11));
+  EXPECT_EQ(verdict.bridge, 1U);
+  EXPECT_EQ(verdict.missing, 0U);
+}
+
+TEST_F(SampleGateTest, TrustsNumbersWhereAHostStampsInBursts) {
+  // Five samples within 10 ms, then a pause of 40 ms: as a host reading a converter's queue stamps them.
+  for (std::uint64_t n = 0; n < 500; ++n) {
+    Sample sample = sample_at(n);
+    sample.stamp_ns =
+        static_cast<std::int64_t>(n / 5) * 50'000'000 + static_cast<std::int64_t>(n % 5) * 2'000'000;
+    const Verdict verdict = gate_.judge(sample);
+    ASSERT_EQ(verdict.kind, Kind::kAccept);
+    ASSERT_EQ(verdict.bridge, 0U) << "sample " << n;
+  }
+  EXPECT_NEAR(gate_.rate_hz(), 100.0, 5.0)
+      << "the mean of 64 intervals, which cover 13 bursts give or take one";
+}
+
+TEST_F(SampleGateTest, ClosesTheWindowAtALongPauseEvenWithoutAKnownPeriod) {
+  feed(3);
+  Sample sample = sample_at(3);
+  sample.stamp_ns = 5'000'000'000;
+  EXPECT_EQ(gate_.judge(sample).kind, Kind::kGap);
+}
+
+TEST_F(SampleGateTest, TakesARebootedSensorAfterEightSamplesThatAgree) {
+  feed(1000, 5000);
+  for (std::uint64_t n = 0; n < 7; ++n) {
+    Sample sample = sample_at(n);
+    sample.stamp_ns += 7000 * kPeriodNs;
+    expect_refused(sample, RejectReason::kOutOfOrder);
+  }
+  Sample sample = sample_at(7);
+  sample.stamp_ns += 7000 * kPeriodNs;
+  EXPECT_EQ(gate_.judge(sample).kind, Kind::kRestart);
+}
+
+TEST_F(SampleGateTest, TakesASteppedBackClockAfterEightSamplesThatAgree) {
+  feed(500, 1000);
+  int refused = 0;
+  Verdict verdict;
+  for (std::uint64_t n = 1500; n < 1510 && verdict.kind != Kind::kRestart; ++n) {
+    Sample sample = sample_at(n);
+    sample.stamp_ns -= 3'600'000'000'000;
+    verdict = gate_.judge(sample);
+    refused += verdict.kind == Kind::kRefuse ? 1 : 0;
+  }
+  EXPECT_EQ(refused, SampleGate::kAnew - 1);
+  EXPECT_EQ(verdict.kind, Kind::kRestart);
+}
+
+TEST_F(SampleGateTest, DoesNotRestartForASecondPublisherInterleaved) {
+  feed(100, 1000);
+  for (std::uint64_t n = 0; n < 50; ++n) {
+    Sample other = sample_at(n);
+    other.stamp_ns += 1100 * kPeriodNs;
+    EXPECT_EQ(gate_.judge(other).kind, Kind::kRefuse);
+    EXPECT_EQ(gate_.judge(sample_at(1100 + n)).kind, Kind::kAccept);
+  }
+}
+
+TEST_F(SampleGateTest, WorksByStampsWhereSamplesHaveNoNumbers) {
+  for (std::uint64_t n = 0; n < 100; ++n) {
+    Sample sample = sample_at(n);
+    sample.sequence = 0;
+    ASSERT_EQ(gate_.judge(sample).kind, Kind::kAccept);
+  }
+  Sample sample = sample_at(102);
+  sample.sequence = 0;
+  EXPECT_EQ(gate_.judge(sample).bridge, 2U);
+  expect_refused(sample, RejectReason::kDuplicate);
+}
+
+TEST_F(SampleGateTest, NoticesAChangeOfTheSampleRate) {
+  feed(200);
+  EXPECT_NEAR(gate_.rate_hz(), 100.0, 1e-9);
+  for (std::uint64_t n = 0; n < 200; ++n) {
+    Sample sample = sample_at(200 + n);
+    sample.stamp_ns = 200 * kPeriodNs + static_cast<std::int64_t>(n) * 2 * kPeriodNs;
+    static_cast<void>(gate_.judge(sample));
+  }
+  EXPECT_NEAR(gate_.rate_hz(), 50.0, 1e-9);
+  Sample sample = sample_at(400);
+  sample.stamp_ns = 600 * kPeriodNs;
+  EXPECT_EQ(gate_.judge(sample).bridge, 0U) << "the new period is the rule now";
+}
+
+TEST_F(SampleGateTest, SurvivesStampsAtTheEndsOfTheClock) {
+  Sample sample = sample_at(1);
+  sample.stamp_ns = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(gate_.judge(sample).kind, Kind::kAccept);
+  sample.sequence = 2;
+  sample.stamp_ns = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(gate_.judge(sample).kind, Kind::kRestart);
+}
+
+}  // namespace
+}  // namespace gyrod::stream
