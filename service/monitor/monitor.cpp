@@ -1,1 +1,82 @@
-namespace gyrod {}
+#include "monitor/monitor.hpp"
+
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include <prometheus/text_serializer.h>
+
+#include "monitor/collector.hpp"
+#include "monitor/http_server.hpp"
+#include "monitor/socket.hpp"
+
+namespace gyrod::monitor {
+namespace {
+
+constexpr const char* kPrometheusText = "text/plain; version=0.0.4; charset=utf-8";
+constexpr const char* kIndex =
+    "<!DOCTYPE html>\n"
+    "<html lang=\"en\"><head><meta charset=\"utf-8\"><title>gyrod</title></head><body><h1>gyrod</h1><ul>\n"
+    "<li><a href=\"/metrics\">/metrics</a> for Prometheus</li>\n"
+    "<li><a href=\"/healthz\">/healthz</a> 200 while the process answers</li>\n"
+    "<li><a href=\"/readyz\">/readyz</a> 200 when samples can be denoised, else 503 and why not</li>\n"
+    "</ul></body></html>\n";
+
+CollectorOptions collector_options(const MonitorOptions& options) {
+  using std::chrono::duration;
+  const auto start = std::chrono::steady_clock::now();
+  return {.max_channel_series = options.max_channel_series,
+          .version = options.version,
+          .start_time_s = duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(),
+          .uptime_s = [start] { return duration<double>(std::chrono::steady_clock::now() - start).count(); }};
+}
+
+}  // namespace
+
+class Monitor::Impl {
+ public:
+  Impl(const MonitorOptions& options, View view)
+      : Impl(options, std::move(view), listen_on(options.address, options.port)) {}
+
+  void start() { server_.start(); }
+  void stop() noexcept { server_.stop(); }
+  [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
+
+ private:
+  Impl(const MonitorOptions& options, View view, Socket listener)
+      : readiness_(view.readiness),
+        collector_(collector_options(options), std::move(view)),
+        port_(port_of(listener)),
+        server_(std::move(listener), [this](const std::string& path) { return answer(path); }) {}
+
+  [[nodiscard]] Answer answer(const std::string& path) const {
+    if (path == "/metrics") {
+      return {.content_type = kPrometheusText,
+              .body = prometheus::TextSerializer().Serialize(collector_.Collect())};
+    }
+    if (path == "/healthz") return {.body = "ok\n"};
+    if (path == "/readyz") return ready();
+    if (path == "/") return {.content_type = "text/html; charset=utf-8", .body = kIndex};
+    return {.status = 404, .body = "not here; see /\n"};
+  }
+
+  [[nodiscard]] Answer ready() const {
+    const Readiness readiness = readiness_();
+    if (readiness.ready) return {.body = "ready\n"};
+    return {.status = 503, .body = "not ready: " + readiness.reason + "\n"};
+  }
+
+  std::function<Readiness()> readiness_;
+  Collector collector_;
+  std::uint16_t port_;
+  HttpServer server_;  // last: its threads use the others
+};
+
+Monitor::Monitor(MonitorOptions options, View view)
+    : impl_(std::make_unique<Impl>(options, std::move(view))) {}
+Monitor::~Monitor() = default;
+void Monitor::start() { impl_->start(); }
+void Monitor::stop() { impl_->stop(); }
+std::uint16_t Monitor::port() const noexcept { return impl_->port(); }
+
+}  // namespace gyrod::monitor

@@ -1,0 +1,48 @@
+/// Writes a recording like the one it came from: same columns, same units, other angular rates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/output_file.hpp"
+#include "files/recording_header.hpp"
+#include "stream/sample.hpp"
+
+namespace gyrod::files {
+
+/// The header and all cells but the angular rates go through verbatim. Rates are written in the header's
+/// unit, as the shortest decimal that reads back to the same double. Lines end in LF. One thread at a time.
+///
+///     RecordingReader reader(in);
+///     RecordingWriter writer(out, reader.header());
+///     while (reader.next(row)) writer.write(row.text, denoised(row.sample.rate_radps));
+///     writer.close();   // without it nothing is left of the output
+class RecordingWriter {
+ public:
+  /// @throws FileError as OutputFile does
+  RecordingWriter(const std::string& path, const RecordingHeader& header);
+
+  /// @param row_text the row as read (RecordingRow::text), with the header's number of cells
+  /// @param rate_radps x, y, z; an axis the header does not have is left out
+  void write(std::string_view row_text, const std::array<double, stream::kAxes>& rate_radps);
+
+  /// Writes the row as it was read: a sample that was refused stays in the recording as it is.
+  void write_unchanged(std::string_view row_text);
+
+  /// See OutputFile::close().
+  void close() { file_.close(); }
+
+  [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
+
+ private:
+  OutputFile file_;
+  RecordingHeader header_;
+  std::vector<std::string_view> cells_;
+  std::string line_;
+  std::uint64_t rows_ = 0;
+};
+
+}  // namespace gyrod::files

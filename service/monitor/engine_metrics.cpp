@@ -1,0 +1,101 @@
+#include "monitor/engine_metrics.hpp"
+
+#include <array>
+#include <cstdint>
+
+#include "monitor/metric_builders.hpp"
+
+namespace gyrod::monitor {
+namespace {
+
+using Families = std::vector<prometheus::MetricFamily>;
+constexpr auto kCounter = prometheus::MetricType::Counter;
+constexpr auto kGauge = prometheus::MetricType::Gauge;
+
+struct CountMetric {
+  const char* name;
+  const char* help;
+  prometheus::MetricType type;
+  std::uint64_t stream::Counts::*count;
+};
+
+using stream::Counts;
+constexpr std::array<CountMetric, 12> kCounts = {{
+    {"gyrod_samples_received_total", "Samples that arrived.", kCounter, &Counts::received},
+    {"gyrod_samples_published_total", "Samples released to the output topics.", kCounter, &Counts::published},
+    {"gyrod_samples_in_flight", "Samples accepted and not released yet.", kGauge, &Counts::in_flight},
+    {"gyrod_samples_missing_total", "Samples that never arrived, by sequence number or stamp.", kCounter,
+     &Counts::missing},
+    {"gyrod_samples_bridged_total", "Missing samples interpolated inside windows, never published.", kCounter,
+     &Counts::bridged},
+    {"gyrod_samples_warming_up_total", "Samples published before their window was full.", kCounter,
+     &Counts::warming_up},
+    {"gyrod_samples_passed_through_total", "Samples published undenoised.", kCounter,
+     &Counts::passed_through},
+    {"gyrod_gaps_total", "Gaps too long to bridge: the window was closed.", kCounter, &Counts::gaps},
+    {"gyrod_restarts_total", "Sequence restarts and clock steps: the window was closed.", kCounter,
+     &Counts::restarts},
+    {"gyrod_windows_total", "Windows processed.", kCounter, &Counts::windows},
+    {"gyrod_hops_widened_total", "Times overload step 1 was entered or deepened: a wider hop.", kCounter,
+     &Counts::hops_widened},
+    {"gyrod_overloads_total", "Times overload step 2 was entered: pass-through.", kCounter,
+     &Counts::overloads},
+}};
+
+prometheus::MetricFamily rejected_by_reason(const stream::Counts& counts) {
+  prometheus::MetricFamily rejected =
+      family("gyrod_samples_rejected_total", "Samples refused, each under one reason.", kCounter);
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
+    const std::string reason(stream::name_of(static_cast<stream::RejectReason>(i)));
+    rejected.metric.push_back(
+        metric(kCounter, static_cast<double>(counts.rejected[i]), {{"reason", reason}}));
+  }
+  return rejected;
+}
+
+void add(Families& families, prometheus::MetricType type, const char* name, const char* help,
+         std::uint64_t value) {
+  families.push_back(single(name, help, type, static_cast<double>(value)));
+}
+
+}  // namespace
+
+void add_engine_metrics(const stream::EngineSnapshot& engine, Families& families) {
+  for (const CountMetric& count : kCounts) {
+    add(families, count.type, count.name, count.help, engine.totals.*count.count);
+  }
+  families.push_back(rejected_by_reason(engine.totals));
+  add(families, kGauge, "gyrod_sensors", "Sensors that have a channel.", engine.channels);
+  add(families, kGauge, "gyrod_queued_windows", "Windows that wait for a worker.", engine.queued_windows);
+  add(families, kGauge, "gyrod_workers", "Worker threads.", engine.workers);
+  add(families, kGauge, "gyrod_workers_busy", "Worker threads that compute a window now.",
+      engine.workers_busy);
+  families.push_back(histogram("gyrod_window_duration_seconds",
+                               "Time a worker spent on one window of a sensor.", engine.window_time));
+  families.push_back(histogram("gyrod_added_latency_seconds",
+                               "Time from the sample that completed a hop to the release of the hop.",
+                               engine.added_latency));
+}
+
+void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Families& families) {
+  add(families, kGauge, "gyrod_ready", "1 while work can be done, as /readyz says.", readiness.ready ? 1 : 0);
+  add(families, kGauge, "gyrod_bus_matched_writers", "Writers that send to gyrod.", bus.matched_writers);
+  add(families, kCounter, "gyrod_bus_malformed_messages_total",
+      "DDS messages dropped whole: no usable sensor id, or too long a batch.", bus.malformed_messages);
+  add(families, kCounter, "gyrod_bus_refusals_total",
+      "Times a full input cache refused a message; reliable writers try again.", bus.refusals);
+  add(families, kCounter, "gyrod_bus_write_errors_total", "DDS messages that could not be written.",
+      bus.write_errors);
+}
+
+void add_process_metrics(const std::string& version, double start_time_s, double uptime_s,
+                         Families& families) {
+  prometheus::MetricFamily build = family("gyrod_build_info", "Always 1; the version is a label.", kGauge);
+  build.metric.push_back(metric(kGauge, 1.0, {{"version", version}}));
+  families.push_back(std::move(build));
+  families.push_back(single("process_start_time_seconds", "When the process began, since the Unix epoch.",
+                            kGauge, start_time_s));
+  families.push_back(single("gyrod_uptime_seconds", "Time since the process began.", kGauge, uptime_s));
+}
+
+}  // namespace gyrod::monitor

@@ -1,0 +1,56 @@
+/// The one HTTP port of the daemon: metrics for Prometheus, health for the supervisor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "monitor/view.hpp"
+
+namespace gyrod::monitor {
+
+struct MonitorOptions {
+  /// Address or host name to listen on. The default is not reachable from outside.
+  std::string address = "127.0.0.1";
+  /// TCP port, 0..65535; 0 takes a free one, port() tells which.
+  std::uint16_t port = 9464;
+  /// Sensors that get series of their own at the most, in the order of opening. A sensor has at most 34
+  /// series.
+  std::size_t max_channel_series = 200;
+  /// What gyrod_build_info says.
+  std::string version = "unknown";
+};
+
+/// Answers GET and HEAD of
+///   /         the list of what is here
+///   /metrics  Prometheus text format 0.0.4, described in docs/metrics.md
+///   /healthz  200 while the process answers
+///   /readyz   200 when work can be done, else 503 with the reason
+/// from a few threads of its own. A client can hold one of them for a bounded time only: one request a
+/// connection, and a limit on its bytes and on its seconds. start() and stop() belong to one thread; port()
+/// may be called from any.
+class Monitor {
+ public:
+  /// Takes the port; clients wait from then on, and are answered after start().
+  /// @throws std::runtime_error naming address, port and reason, e.g. "port 9464 on 127.0.0.1 is in use"
+  Monitor(MonitorOptions options, View view);
+  /// Stops.
+  ~Monitor();
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+
+  /// Begins to answer. The view is called from now until stop() returns.
+  void start();
+  /// Closes the port and every connection; returns within a second, whatever the clients do. Can be called
+  /// twice.
+  void stop();
+
+  [[nodiscard]] std::uint16_t port() const noexcept;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gyrod::monitor

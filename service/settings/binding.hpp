@@ -1,0 +1,60 @@
+/// Which key of the configuration is which member of Settings: the one list that loading and the tests go
+/// through.
+#pragma once
+
+#include "settings/settings.hpp"
+
+namespace gyrod::settings {
+
+template <class Visit>
+void visit_bus(BusSettings& bus, Visit& visit) {
+  visit("bus.domain", bus.domain);
+  visit("bus.network", bus.network);
+  visit("bus.max_batch_samples", bus.max_batch_samples);
+  visit("bus.topics.raw", bus.topics.raw);
+  visit("bus.topics.raw_batch", bus.topics.raw_batch);
+  visit("bus.topics.denoised", bus.topics.denoised);
+  visit("bus.topics.denoised_batch", bus.topics.denoised_batch);
+  visit("bus.topics.noise", bus.topics.noise);
+  visit("bus.input.reliability", bus.input.reliability);
+  visit("bus.input.history_depth", bus.input.history_depth);
+  visit("bus.input.max_messages", bus.input.max_messages);
+  visit("bus.input.max_sensors", bus.input.max_sensors);
+  visit("bus.output.reliability", bus.output.reliability);
+  visit("bus.output.history_depth", bus.output.history_depth);
+}
+
+template <class Visit>
+void visit_algorithm(Settings& settings, Visit& visit) {
+  visit("denoise.method", settings.denoise.method);
+  visit("denoise.screening", settings.denoise.screening);
+  visit("denoise.window_samples", settings.engine.window_samples);
+  visit("denoise.hop_samples", settings.engine.hop_samples);
+  visit("denoise.lag_samples", settings.engine.lag_samples);
+  visit("denoise.sample_rate_hz", settings.engine.sample_rate_hz);
+  visit("denoise.sifts", settings.denoise.sifts);
+  visit("denoise.boundary", settings.denoise.boundary);
+  visit("denoise.max_ar_order", settings.denoise.max_ar_order);
+  visit("limits.max_hop_samples", settings.engine.max_hop_samples);
+  visit("limits.max_channels", settings.engine.max_channels);
+  visit("limits.max_rate_radps", settings.engine.max_rate_radps);
+  visit("limits.max_bridged_samples", settings.engine.max_bridged_samples);
+  visit("limits.max_queued_windows", settings.engine.max_queued_windows);
+  visit("limits.max_delay_s", settings.engine.max_delay_s);
+}
+
+/// Calls visit(key, member) for every key of the configuration.
+template <class Visit>
+void for_each_key(Settings& settings, Visit&& visit) {
+  visit_bus(settings.bus, visit);
+  visit_algorithm(settings, visit);
+  visit("workers", settings.workers);
+  visit("monitor.enabled", settings.monitor.enabled);
+  visit("monitor.address", settings.monitor.address);
+  visit("monitor.port", settings.monitor.port);
+  visit("monitor.max_channel_series", settings.monitor.max_channel_series);
+  visit("stop.deadline_s", settings.stop_deadline_s);
+  visit("log.level", settings.log_level);
+}
+
+}  // namespace gyrod::settings

@@ -1,0 +1,136 @@
+#include "settings/cross_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "settings/document.hpp"
+
+namespace gyrod::settings {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+class CrossCheck {
+ public:
+  CrossCheck(const Settings& settings, const json& document, std::vector<SettingsIssue>& issues)
+      : settings_(settings), document_(document), issues_(issues) {}
+
+  /// Window, hop and lag as documented in stream/engine.hpp.
+  void check_window() {
+    const stream::EngineOptions& engine = settings_.engine;
+    const std::size_t half = engine.window_samples / 2;
+    const std::size_t quarter = engine.window_samples / 4;
+    const std::string half_words = "half of denoise.window_samples (" + std::to_string(half) + ")";
+    const std::string quarter_words =
+        "at most a quarter of denoise.window_samples (" + std::to_string(quarter) + ")";
+    require(engine.hop_samples <= half, "denoise.hop_samples", engine.hop_samples, "at most " + half_words,
+            {"denoise.window_samples"});
+    require(engine.lag_samples <= quarter, "denoise.lag_samples", engine.lag_samples, quarter_words,
+            {"denoise.window_samples"});
+    require(engine.max_hop_samples >= engine.hop_samples && engine.max_hop_samples <= half,
+            "limits.max_hop_samples", engine.max_hop_samples,
+            "from denoise.hop_samples (" + std::to_string(engine.hop_samples) + ") to " + half_words,
+            {"denoise.hop_samples", "denoise.window_samples"});
+    require(engine.max_bridged_samples <= quarter, "limits.max_bridged_samples", engine.max_bridged_samples,
+            quarter_words, {"denoise.window_samples"});
+  }
+
+  /// More ids must reach the engine than it takes, or a flood of them is dropped unseen.
+  void check_sensors() {
+    require(settings_.bus.input.max_sensors >= settings_.engine.max_channels, "bus.input.max_sensors",
+            settings_.bus.input.max_sensors,
+            "at least limits.max_channels (" + std::to_string(settings_.engine.max_channels) + ")",
+            {"limits.max_channels"});
+  }
+
+  void check_topics() {
+    const TopicSettings& topics = settings_.bus.topics;
+    const std::array<std::pair<std::string, std::string>, 5> all = {
+        {{"bus.topics.raw", topics.raw},
+         {"bus.topics.raw_batch", topics.raw_batch},
+         {"bus.topics.denoised", topics.denoised},
+         {"bus.topics.denoised_batch", topics.denoised_batch},
+         {"bus.topics.noise", topics.noise}}};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto& [key, name] = all[i];
+      require(is_topic_name(name), key, name, "letters, digits, '_' and '/', not starting with a digit", {});
+      for (std::size_t earlier = 0; earlier < i; ++earlier) {
+        require(name != all[earlier].second, key, name,
+                "a name of its own, not that of " + all[earlier].first, {all[earlier].first});
+      }
+    }
+  }
+
+  void check_network(const fs::path& directory) {
+    const fs::path file = network_file(settings_.bus, directory);
+    std::error_code error;
+    require(file.empty() || fs::is_regular_file(file, error), "bus.network", settings_.bus.network,
+            "\"loopback\", \"default\" or the path of a Cyclone DDS XML file", {});
+  }
+
+ private:
+  static bool is_topic_name(std::string_view name) {
+    const auto allowed = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+             c == '/';
+    };
+    return std::all_of(name.begin(), name.end(), allowed) && !(name.front() >= '0' && name.front() <= '9');
+  }
+
+  /// @param others the keys besides `key` that the rule depends on
+  void require(bool holds, const std::string& key, const json& value, const std::string& expected,
+               std::initializer_list<std::string_view> others) {
+    const auto unknown = [this](std::string_view name) { return concerned(issues_, name); };
+    if (holds || unknown(key) || std::any_of(others.begin(), others.end(), unknown)) return;
+    const std::string origin = given_value(document_, key) != nullptr ? "" : " (the default)";
+    issues_.push_back({.key = key,
+                       .value = shortened(value),
+                       .expected = expected,
+                       .message = key + " is " + shortened(value) + origin + "; expected " + expected});
+  }
+
+  const Settings& settings_;
+  const json& document_;
+  std::vector<SettingsIssue>& issues_;
+};
+
+}  // namespace
+
+void cross_check(const Settings& settings, const json& document, const fs::path& directory,
+                 std::vector<SettingsIssue>& issues) {
+  CrossCheck check(settings, document, issues);
+  check.check_window();
+  check.check_sensors();
+  check.check_topics();
+  check.check_network(directory);
+}
+
+bool concerned(const std::vector<SettingsIssue>& issues, std::string_view key) {
+  return std::any_of(issues.begin(), issues.end(), [key](const SettingsIssue& issue) {
+    return issue.key.empty() || key == issue.key || key.starts_with(issue.key + ".");
+  });
+}
+
+const json* given_value(const json& document, std::string_view key) {
+  const json* value = &document;
+  while (!key.empty()) {
+    const std::string_view name = key.substr(0, key.find('.'));
+    key.remove_prefix(std::min(key.size(), name.size() + 1));
+    const auto member = value->find(std::string(name));
+    if (member == value->end()) return nullptr;
+    value = &*member;
+  }
+  return value;
+}
+
+fs::path network_file(const BusSettings& bus, const fs::path& directory) {
+  if (bus.network == "loopback" || bus.network == "default") return {};
+  return fs::absolute(directory / bus.network).lexically_normal();
+}
+
+}  // namespace gyrod::settings

@@ -1,0 +1,82 @@
+/// The configuration of the daemon as plain structs. The defaults equal those of config/gyrod.schema.json,
+/// which is the one place that states type, range and meaning of every key (docs/configuration.md explains
+/// them); a test compares. The comments here give only what the schema does not.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/emd/emd.hpp"
+#include "stream/engine.hpp"
+
+namespace gyrod::settings {
+
+enum class Reliability : std::uint8_t { kReliable, kBestEffort };
+enum class Method : std::uint8_t { kPaper };
+enum class Screening : std::uint8_t { kWindowed, kPaper };
+enum class LogLevel : std::uint8_t { kTrace, kDebug, kInfo, kWarning, kError };
+
+struct TopicSettings {
+  std::string raw = "gyro/raw";
+  std::string raw_batch = "gyro/raw_batch";
+  std::string denoised = "gyro/denoised";
+  std::string denoised_batch = "gyro/denoised_batch";
+  std::string noise = "gyro/noise";
+};
+
+struct InputSettings {
+  Reliability reliability = Reliability::kReliable;
+  /// Messages of one sensor that DDS holds for us; 0 keeps all, up to max_messages of a topic.
+  std::size_t history_depth = 0;
+  std::size_t max_messages = 4096;
+  /// Sensor ids that DDS keeps track of in a topic; at least engine.max_channels.
+  std::size_t max_sensors = 65536;
+};
+
+struct OutputSettings {
+  Reliability reliability = Reliability::kReliable;
+  /// Messages of one sensor and topic that DDS holds for readers that are behind.
+  std::size_t history_depth = 1024;
+};
+
+struct BusSettings {
+  std::uint32_t domain = 0;
+  /// "loopback", "default", or the path of a Cyclone DDS XML file (made absolute by loading).
+  std::string network = "loopback";
+  std::size_t max_batch_samples = 1024;
+  TopicSettings topics;
+  InputSettings input;
+  OutputSettings output;
+};
+
+/// What the algorithm is told; window, hop, lag and sample rate of the group `denoise` are in
+/// `Settings::engine`.
+struct DenoiseSettings {
+  Method method = Method::kPaper;
+  Screening screening = Screening::kWindowed;
+  int sifts = 10;
+  core::BoundaryRule boundary = core::BoundaryRule::kMirror;
+  std::size_t max_ar_order = 6;
+};
+
+struct MonitorSettings {
+  bool enabled = true;
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 9464;
+  std::size_t max_channel_series = 200;
+};
+
+struct Settings {
+  BusSettings bus;
+  DenoiseSettings denoise;
+  /// From the groups `denoise` and `limits`. `engine.workers` is not a key of its own: see `workers`.
+  stream::EngineOptions engine;
+  /// Worker threads; 0 asks for one per core. Whoever makes the Engine sets engine.workers from it.
+  std::size_t workers = 0;
+  MonitorSettings monitor;
+  double stop_deadline_s = 5.0;
+  LogLevel log_level = LogLevel::kInfo;
+};
+
+}  // namespace gyrod::settings

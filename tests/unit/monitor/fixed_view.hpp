@@ -1,0 +1,99 @@
+/// A view of an engine and a bus that are not there, with values that tell every metric from the others.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "monitor/view.hpp"
+
+namespace gyrod::monitor::test {
+
+/// What the view shows.
+struct Shown {
+  stream::EngineSnapshot engine;
+  std::vector<stream::ChannelSnapshot> channels;
+  BusSnapshot bus;
+  Readiness readiness{.ready = true, .reason = ""};
+};
+
+/// A sensor that has had windows: every figure known.
+inline stream::ChannelSnapshot busy_sensor(std::string name) {
+  stream::ChannelSnapshot sensor;
+  sensor.sensor = std::move(name);
+  sensor.counts = {
+      .received = 500, .published = 450, .in_flight = 40, .missing = 4, .gaps = 1, .windows = 15};
+  sensor.counts.rejected[0] = 3;
+  sensor.counts.rejected[2] = 7;
+  sensor.queued_windows = 2;
+  sensor.hop_samples = 64;
+  sensor.sample_rate_hz = 99.5;
+  stream::NoiseReport& report = sensor.last_report;
+  report.model_epoch = 15;
+  report.last_stamp_ns = 1'700'000'000'500'000'000;
+  report.noise_source = stream::NoiseSource::kImf1;
+  report.flags = static_cast<std::uint32_t>(stream::SampleFlag::kHopWidened);
+  report.window_time_s = 0.0015;
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+    const double scale = 1.0 + static_cast<double>(axis);
+    report.axis[axis].noise_floor = 0.008 * scale;
+    report.axis[axis].output_noise = 0.002 * scale;
+    report.axis[axis].mean = -0.1 * scale;
+    report.axis[axis].imf_count = 8;
+    report.axis[axis].j = 2;
+    report.axis[axis].k = 5;
+  }
+  return sensor;
+}
+
+/// A sensor before its first window: most figures are not known yet.
+inline stream::ChannelSnapshot new_sensor(std::string name) {
+  stream::ChannelSnapshot sensor;
+  sensor.sensor = std::move(name);
+  sensor.counts.received = 10;
+  sensor.counts.in_flight = 10;
+  sensor.hop_samples = 32;
+  return sensor;
+}
+
+inline Shown busy_gyrod() {
+  Shown shown;
+  stream::Counts& totals = shown.engine.totals;
+  totals = {.received = 1000,
+            .published = 900,
+            .in_flight = 64,
+            .missing = 11,
+            .bridged = 9,
+            .gaps = 3,
+            .restarts = 2,
+            .windows = 30,
+            .warming_up = 320,
+            .passed_through = 16,
+            .hops_widened = 5,
+            .overloads = 1};
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) totals.rejected[i] = i + 1;
+  shown.engine.channels = 2;
+  shown.engine.queued_windows = 6;
+  shown.engine.workers = 4;
+  shown.engine.workers_busy = 3;
+  for (const double seconds : {20e-6, 0.0015, 0.0015, 0.3, 60.0}) shown.engine.window_time.add(seconds);
+  shown.engine.added_latency.add(0.004);
+  shown.channels = {busy_sensor("imu_front"), new_sensor("imu_rear")};
+  shown.bus = {.matched_writers = 2, .malformed_messages = 21, .refusals = 22, .write_errors = 23};
+  return shown;
+}
+
+/// @param shown outlives the view; not to be changed while a monitor runs on it
+inline View view_of(const Shown& shown) {
+  return {.engine = [&shown] { return shown.engine; },
+          .channels =
+              [&shown](std::size_t limit) {
+                auto channels = shown.channels;
+                if (channels.size() > limit) channels.resize(limit);
+                return channels;
+              },
+          .bus = [&shown] { return shown.bus; },
+          .readiness = [&shown] { return shown.readiness; }};
+}
+
+}  // namespace gyrod::monitor::test

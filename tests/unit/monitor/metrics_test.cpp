@@ -1,0 +1,245 @@
+/// What /metrics says, against a view with known values.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <prometheus/text_serializer.h>
+
+#include "monitor/collector.hpp"
+#include "unit/monitor/exposition.hpp"
+#include "unit/monitor/fixed_view.hpp"
+
+namespace gyrod::monitor::test {
+namespace {
+
+using Labels = std::map<std::string, std::string>;
+
+std::string exposition_of(const Shown& shown, std::size_t max_channel_series = 200) {
+  const Collector collector({.max_channel_series = max_channel_series,
+                             .version = "1.2.3",
+                             .start_time_s = 1.7e9,
+                             .uptime_s = [] { return 42.5; }},
+                            view_of(shown));
+  return prometheus::TextSerializer().Serialize(collector.Collect());
+}
+
+std::vector<Family> families_of(const Shown& shown, std::size_t max_channel_series = 200) {
+  return parse_exposition(exposition_of(shown, max_channel_series));
+}
+
+std::string manual() {
+  const char* project = std::getenv("GYROD_SOURCE_DIR");
+  std::ifstream file(std::string(project == nullptr ? "." : project) + "/docs/metrics.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Metrics, EveryFamilyHasHelpTypeAndATellingName) {
+  for (const Family& family : families_of(busy_gyrod())) {
+    EXPECT_FALSE(family.help.empty()) << family.name;
+    EXPECT_TRUE(family.name.starts_with("gyrod_") || family.name.starts_with("process_")) << family.name;
+    EXPECT_FALSE(family.series.empty()) << family.name;
+    EXPECT_EQ(family.type == "counter", family.name.ends_with("_total")) << family.name << " " << family.type;
+    if (family.type == "histogram") {
+      EXPECT_TRUE(family.name.ends_with("_seconds")) << family.name;
+    }
+  }
+}
+
+TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
+  const auto families = families_of(busy_gyrod());
+  const std::map<std::string, double> expected = {{"gyrod_samples_received_total", 1000},
+                                                  {"gyrod_samples_published_total", 900},
+                                                  {"gyrod_samples_in_flight", 64},
+                                                  {"gyrod_samples_missing_total", 11},
+                                                  {"gyrod_samples_bridged_total", 9},
+                                                  {"gyrod_samples_warming_up_total", 320},
+                                                  {"gyrod_samples_passed_through_total", 16},
+                                                  {"gyrod_gaps_total", 3},
+                                                  {"gyrod_restarts_total", 2},
+                                                  {"gyrod_windows_total", 30},
+                                                  {"gyrod_hops_widened_total", 5},
+                                                  {"gyrod_overloads_total", 1},
+                                                  {"gyrod_sensors", 2},
+                                                  {"gyrod_queued_windows", 6},
+                                                  {"gyrod_workers", 4},
+                                                  {"gyrod_workers_busy", 3},
+                                                  {"gyrod_ready", 1},
+                                                  {"gyrod_bus_matched_writers", 2},
+                                                  {"gyrod_bus_malformed_messages_total", 21},
+                                                  {"gyrod_bus_refusals_total", 22},
+                                                  {"gyrod_bus_write_errors_total", 23},
+                                                  {"gyrod_uptime_seconds", 42.5},
+                                                  {"process_start_time_seconds", 1.7e9}};
+  for (const auto& [name, value] : expected) EXPECT_EQ(value_of(families, name), value) << name;
+  EXPECT_EQ(value_of(families, "gyrod_build_info", {{"version", "1.2.3"}}), 1.0);
+}
+
+TEST(Metrics, RefusedSamplesAreCountedUnderEveryReasonAndAddUp) {
+  const auto families = families_of(busy_gyrod());
+  const Family* rejected = find_family(families, "gyrod_samples_rejected_total");
+  ASSERT_NE(rejected, nullptr);
+  EXPECT_EQ(rejected->series.size(), stream::kRejectReasons);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
+    const std::string reason(stream::name_of(static_cast<stream::RejectReason>(i)));
+    const auto value = value_of(families, "gyrod_samples_rejected_total", {{"reason", reason}});
+    EXPECT_EQ(value, static_cast<double>(i + 1)) << reason;
+    sum += value.value_or(0.0);
+  }
+  EXPECT_EQ(value_of(families, "gyrod_samples_received_total"),
+            value_of(families, "gyrod_samples_published_total").value() +
+                value_of(families, "gyrod_samples_in_flight").value() + sum);
+}
+
+TEST(Metrics, HistogramsAreCumulativeSortedAndEndAtInfinity) {
+  const auto families = families_of(busy_gyrod());
+  const Family* times = find_family(families, "gyrod_window_duration_seconds");
+  ASSERT_NE(times, nullptr);
+  double last_bound = -std::numeric_limits<double>::infinity();
+  double last_count = 0.0;
+  std::size_t buckets = 0;
+  for (const Series& series : times->series) {
+    if (series.name != "gyrod_window_duration_seconds_bucket") continue;
+    const double bound = std::stod(series.labels.at("le"));
+    EXPECT_GT(bound, last_bound);
+    EXPECT_GE(series.value, last_count);
+    // The samples added in busy_gyrod().
+    const double below = (bound >= 20e-6) + 2 * (bound >= 0.0015) + (bound >= 0.3) + (bound >= 60.0);
+    EXPECT_EQ(series.value, below) << bound;
+    last_bound = bound;
+    last_count = series.value;
+    ++buckets;
+  }
+  EXPECT_EQ(buckets, stream::TimeHistogram::kUpperBoundsS.size() + 1);
+  EXPECT_TRUE(std::isinf(last_bound));
+  for (const Series& series : times->series) {
+    if (series.name.ends_with("_count")) {
+      EXPECT_EQ(series.value, last_count);
+    }
+    if (series.name.ends_with("_sum")) {
+      EXPECT_NEAR(series.value, 60.30302, 1e-9);
+    }
+  }
+}
+
+TEST(Metrics, FiguresOfASensorAndItsAxesAreThoseOfItsLastReport) {
+  const auto families = families_of(busy_gyrod());
+  const Labels sensor = {{"sensor", "imu_front"}};
+  EXPECT_EQ(value_of(families, "gyrod_sensor_samples_received_total", sensor), 500.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_samples_rejected_total", sensor), 10.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_sample_rate_hertz", sensor), 99.5);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_overload_step", sensor), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_noise_source", sensor), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_last_window_timestamp_seconds", sensor), 1700000000.5);
+  const Labels y = {{"sensor", "imu_front"}, {"axis", "y"}};
+  EXPECT_EQ(value_of(families, "gyrod_axis_noise_floor_radians_per_second", y), 0.016);
+  EXPECT_EQ(value_of(families, "gyrod_axis_output_noise_radians_per_second", y), 0.004);
+  EXPECT_EQ(value_of(families, "gyrod_axis_noise_reduction_ratio", y), 0.75);
+  EXPECT_EQ(value_of(families, "gyrod_axis_mean_radians_per_second", y), -0.2);
+  EXPECT_EQ(value_of(families, "gyrod_axis_filtered_imfs", y), 5.0);
+}
+
+TEST(Metrics, WhatIsNotKnownYetHasNoSeries) {
+  const auto families = families_of(busy_gyrod());
+  const Labels sensor = {{"sensor", "imu_rear"}};
+  EXPECT_EQ(value_of(families, "gyrod_sensor_samples_received_total", sensor), 10.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_sample_rate_hertz", sensor), std::nullopt);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_noise_source", sensor), std::nullopt);
+  EXPECT_EQ(value_of(families, "gyrod_axis_imfs", {{"sensor", "imu_rear"}, {"axis", "x"}}), std::nullopt);
+}
+
+TEST(Metrics, PassThroughIsTheHighestOverloadStep) {
+  Shown shown = busy_gyrod();
+  shown.channels[0].pass_through = true;
+  EXPECT_EQ(value_of(families_of(shown), "gyrod_sensor_overload_step", {{"sensor", "imu_front"}}), 2.0);
+}
+
+TEST(Metrics, ASensorHasAsManySeriesAsTheManualSays) {
+  std::size_t series = 0;
+  for (const Family& family : families_of(busy_gyrod())) {
+    for (const Series& one : family.series) {
+      const auto label = one.labels.find("sensor");
+      if (label != one.labels.end() && label->second == "imu_front") ++series;
+    }
+  }
+  EXPECT_EQ(series, 34U);  // MonitorOptions::max_channel_series, docs/configuration.md
+}
+
+TEST(Metrics, SensorsBeyondTheCapAreCountedInstead) {
+  Shown shown = busy_gyrod();
+  shown.channels.clear();
+  for (int i = 0; i < 10; ++i) shown.channels.push_back(busy_sensor("gyro" + std::to_string(i)));
+  shown.engine.channels = shown.channels.size();
+  const auto families = families_of(shown, 3);
+  std::set<std::string> sensors;
+  for (const Family& family : families) {
+    for (const Series& series : family.series) {
+      if (series.labels.contains("sensor")) sensors.insert(series.labels.at("sensor"));
+    }
+  }
+  EXPECT_THAT(sensors, testing::ElementsAre("gyro0", "gyro1", "gyro2"));
+  EXPECT_EQ(value_of(families, "gyrod_sensors_omitted"), 7.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensors"), 10.0);
+  EXPECT_EQ(value_of(families_of(shown, 0), "gyrod_sensors_omitted"), 10.0);
+}
+
+TEST(Metrics, OddSensorIdsSurviveTheFormat) {
+  for (const std::string name : {"a\"b", "back\\slash", "line\nbreak", "a b,c={}", "gyr\xC3\xB6", "\\n"}) {
+    Shown shown = busy_gyrod();
+    shown.channels = {busy_sensor(name)};
+    EXPECT_EQ(value_of(families_of(shown), "gyrod_sensor_samples_received_total", {{"sensor", name}}), 500.0)
+        << name;
+  }
+}
+
+TEST(Metrics, EveryFamilyHasARowInTheManualWithItsType) {
+  const std::string text = manual();
+  for (const Family& family : families_of(busy_gyrod())) {
+    EXPECT_NE(text.find("| `" + family.name + "` | " + family.type + " |"), std::string::npos)
+        << family.name << " (" << family.type << ") has no row in docs/metrics.md";
+  }
+}
+
+TEST(Metrics, TheManualHasNoRowThatIsNotExported) {
+  const auto families = families_of(busy_gyrod());
+  const std::string text = manual();
+  const std::string row = "\n| `";
+  std::size_t rows = 0;
+  for (std::size_t at = text.find(row); at != std::string::npos; at = text.find(row, at + 1)) {
+    const std::size_t begin = at + row.size();
+    const std::string name = text.substr(begin, text.find('`', begin) - begin);
+    if (!name.starts_with("gyrod_") && !name.starts_with("process_")) continue;
+    EXPECT_NE(find_family(families, name), nullptr) << name;
+    ++rows;
+  }
+  EXPECT_EQ(rows, families.size());
+}
+
+TEST(Metrics, TheManualExplainsEveryReason) {
+  const std::string text = manual();
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
+    const std::string reason(stream::name_of(static_cast<stream::RejectReason>(i)));
+    EXPECT_NE(text.find("\n| `" + reason + "` |"), std::string::npos) << reason;
+  }
+}
+
+TEST(Metrics, PromtoolAcceptsThem) {
+  if (std::system("command -v promtool > /dev/null 2>&1") != 0) GTEST_SKIP() << "promtool is not installed";
+  std::FILE* promtool = popen("promtool check metrics", "w");
+  ASSERT_NE(promtool, nullptr);
+  const std::string text = exposition_of(busy_gyrod());
+  EXPECT_EQ(std::fwrite(text.data(), 1, text.size(), promtool), text.size());
+  EXPECT_EQ(pclose(promtool), 0);
+}
+
+}  // namespace
+}  // namespace gyrod::monitor::test
