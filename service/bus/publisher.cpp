@@ -1,1 +1,121 @@
-namespace gyrod {}
+#include "bus/publisher.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+#include "bus/topic_writer.hpp"
+
+namespace gyrod::bus {
+namespace {
+
+/// Fills a thread's own buffer with the samples in wire form. Kept by the thread, so that it allocates the
+/// first time only.
+std::span<gyrod_DenoisedElement> elements_of(std::span<const stream::DenoisedSample> samples) {
+  static thread_local std::vector<gyrod_DenoisedElement> elements;
+  elements.resize(std::max(elements.size(), samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) to_wire(samples[i], elements[i]);
+  return {elements.data(), samples.size()};
+}
+
+}  // namespace
+
+class Publisher::Impl {
+ public:
+  Impl(const Domain& domain, const BusOptions& options)
+      : domain_(domain),
+        max_batch_samples_(options.max_batch_samples),
+        singles_(domain.participant(), options.topics.denoised, output_writer_qos(options)),
+        batches_(domain.participant(), options.topics.denoised_batch, output_writer_qos(options)),
+        reports_(domain.participant(), options.topics.noise, report_writer_qos(options)) {}
+
+  void publish_singles(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
+    if (!singles_.has_readers()) return;
+    gyrod_DenoisedSample message;
+    set_sensor(message, sensor);
+    for (const stream::DenoisedSample& sample : samples) {
+      to_wire(sample, message);
+      count(singles_.write(message));
+    }
+    singles_.flush();
+  }
+
+  void publish_batches(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
+    if (!batches_.has_readers()) return;
+    gyrod_DenoisedBatch message;
+    set_sensor(message, sensor);
+    while (!samples.empty()) {
+      const auto part = samples.first(std::min(samples.size(), max_batch_samples_));
+      const auto elements = elements_of(part);
+      const auto size = static_cast<std::uint32_t>(elements.size());
+      message.samples = {size, size, elements.data(), false};
+      count(batches_.write(message));
+      samples = samples.subspan(part.size());
+    }
+    batches_.flush();
+  }
+
+  void publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
+    gyrod_NoiseReport message;
+    ImfReports imfs;
+    set_sensor(message, sensor);
+    to_wire(report, imfs, message);
+    count(reports_.write(message));
+    reports_.flush();
+  }
+
+  void unregister_sensor(std::string_view sensor) noexcept {
+    count(singles_.end(sensor));
+    count(batches_.end(sensor));
+    count(reports_.end(sensor));
+  }
+
+  bool wait_for_acknowledgements(std::chrono::milliseconds timeout) const noexcept {
+    const dds_time_t deadline = dds_time() + DDS_MSECS(timeout.count());
+    const auto confirmed = [deadline](dds_entity_t writer) {
+      return dds_wait_for_acks(writer, std::max<dds_duration_t>(0, deadline - dds_time())) == DDS_RETCODE_OK;
+    };
+    return confirmed(singles_.get()) && confirmed(batches_.get()) && confirmed(reports_.get());
+  }
+
+  [[nodiscard]] std::uint64_t write_errors() const noexcept {
+    return write_errors_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  void count(dds_return_t written) noexcept {
+    if (written < 0) write_errors_.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  Domain domain_;
+  std::size_t max_batch_samples_;
+  TopicWriter<gyrod_DenoisedSample> singles_;
+  TopicWriter<gyrod_DenoisedBatch> batches_;
+  TopicWriter<gyrod_NoiseReport> reports_;
+  std::atomic<std::uint64_t> write_errors_{0};
+};
+
+Publisher::Publisher(const Domain& domain, const BusOptions& options)
+    : impl_(std::make_unique<Impl>(domain, options)) {}
+Publisher::~Publisher() = default;
+Publisher::Publisher(Publisher&&) noexcept = default;
+Publisher& Publisher::operator=(Publisher&&) noexcept = default;
+
+void Publisher::publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
+  impl_->publish_singles(sensor, samples);
+  impl_->publish_batches(sensor, samples);
+}
+
+void Publisher::publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
+  impl_->publish_report(sensor, report);
+}
+
+void Publisher::unregister_sensor(std::string_view sensor) noexcept { impl_->unregister_sensor(sensor); }
+
+bool Publisher::wait_for_acknowledgements(std::chrono::milliseconds timeout) noexcept {
+  return impl_->wait_for_acknowledgements(timeout);
+}
+
+std::uint64_t Publisher::write_errors() const noexcept { return impl_->write_errors(); }
+
+}  // namespace gyrod::bus

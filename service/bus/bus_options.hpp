@@ -1,0 +1,88 @@
+/// What the bus adapter can be told.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace gyrod::bus {
+
+/// Whether DDS repairs losses.
+enum class Reliability {
+  kReliable,    ///< a lost message is sent again
+  kBestEffort,  ///< a lost message stays lost: lowest latency on a bad network
+};
+
+/// What a reader's cache does when samples come faster than they are taken.
+enum class History {
+  kKeepAll,   ///< refuses more, so that a reliable writer has to wait: nothing is lost
+  kKeepLast,  ///< drops the oldest of the sensor: a late reader never slows a writer
+};
+
+struct TopicNames {
+  std::string raw = "gyro/raw";                        ///< in: GyroSample
+  std::string raw_batch = "gyro/raw_batch";            ///< in: GyroBatch
+  std::string denoised = "gyro/denoised";              ///< out: DenoisedSample
+  std::string denoised_batch = "gyro/denoised_batch";  ///< out: DenoisedBatch
+  std::string noise = "gyro/noise";                    ///< out: NoiseReport
+};
+
+/// Effect, unit, range and consequence of every option; the defaults lose nothing and bound everything.
+struct BusOptions {
+  /// Which DDS domain to join. Programs in different domains do not see one another. 0..230.
+  std::uint32_t domain_id = 0;
+
+  /// Which network DDS may use:
+  ///   "loopback"  this machine only (config/cyclonedds/loopback.xml, built in);
+  ///   "default"   CYCLONEDDS_URI if set, else Cyclone's own choice of interface;
+  ///   else        path of a Cyclone DDS XML file.
+  /// The default sends nothing to any network until someone asks for it.
+  std::string network = "loopback";
+
+  TopicNames topics;
+
+  /// Input: kReliable matches reliable writers only; kBestEffort matches every writer, and losses show as
+  /// gaps.
+  Reliability input_reliability = Reliability::kReliable;
+
+  /// Input: kKeepAll slows reliable writers down to gyrod's pace (replay --speed max loses nothing);
+  /// kKeepLast loses the oldest samples of a sensor when gyrod is late by more than input_depth messages.
+  History input_history = History::kKeepAll;
+
+  /// Input, kKeepLast only: messages kept per sensor. 1..65536. More bridges longer stalls and costs memory.
+  std::size_t input_depth = 1024;
+
+  /// Input, kKeepAll only: messages kept per topic, over all sensors. 16..1000000. Bounds the cache at this
+  /// many messages; at 64 samples a batch the default is 11 MB. When it is full writers wait.
+  std::size_t input_max_messages = 4096;
+
+  /// Input: sensor ids the middleware keeps track of per topic. 1..1000000. An id is forgotten when its
+  /// writers unregister it or go. Bounds memory under a flood of ids (some 500 bytes each). Keep it well
+  /// above the engine's max_channels, which refuses ids one by one and counts them: beyond this limit a
+  /// reliable message of a new id is refused again and again (refusals() grows), and on a network all input
+  /// that arrives after it waits with it, since Cyclone delivers on one thread, until its writer goes.
+  std::size_t max_instances = 65536;
+
+  /// Output: kReliable serves every reader; kBestEffort serves best-effort readers only.
+  Reliability output_reliability = Reliability::kReliable;
+
+  /// Output: messages kept per sensor and topic for readers that are late. 1..65536. A reliable reader that
+  /// lags by more loses the oldest; gyrod itself never waits for a reader.
+  std::size_t output_depth = 1024;
+
+  /// Samples of one batch message. 1..65536. Output: a longer run is split. Input: a longer batch is refused
+  /// and counted.
+  std::size_t max_batch_samples = 1024;
+};
+
+/// Longest sensor id in characters: the bound of the key in idl/gyrod.idl.
+inline constexpr std::size_t kMaxSensorIdLength = 64;
+
+/// Whether the id fits the wire: 1..64 characters, none of them NUL.
+[[nodiscard]] constexpr bool fits_wire(std::string_view sensor) noexcept {
+  return !sensor.empty() && sensor.size() <= kMaxSensorIdLength &&
+         sensor.find('\0') == std::string_view::npos;
+}
+
+}  // namespace gyrod::bus

@@ -1,0 +1,97 @@
+#include "bus/domain.hpp"
+
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "bus/entity.hpp"
+#include "bus/log.hpp"
+#include "bus/network_config.hpp"
+
+namespace gyrod::bus {
+namespace {
+
+/// Beyond it the ports of RTPS leave the 16 bits of UDP (7400 + 250 * id).
+constexpr std::uint32_t kMaxDomainId = 230;
+
+/// A domain of this process and how many Domain objects stand on it.
+struct OpenDomain {
+  Entity entity;
+  std::string network;
+  int users = 0;
+};
+
+// Process-wide, because the middleware's domains are.
+std::mutex open_domains_mutex;
+std::map<std::uint32_t, OpenDomain> open_domains;
+
+/// "open domain 7 on network 'x.xml'", followed by what the middleware said about it.
+std::string attempt_text(const char* verb, std::uint32_t id, const std::string& network,
+                         const LogCapture& log) {
+  const std::string attempt = verb + (" domain " + std::to_string(id)) + " on network '" + network + "'";
+  return log.text().empty() ? attempt : attempt + " (" + log.text() + ")";
+}
+
+Entity create_domain(std::uint32_t id, const std::string& network) {
+  const std::string config = network_config(network);
+  const LogCapture log;
+  const dds_entity_t created = dds_create_domain(id, config.c_str());
+  Entity domain(created, attempt_text("open", id, network, log));
+  // Acts on the domains that exist and must come before their writers.
+  dds_write_set_batch(true);
+  return domain;
+}
+
+void acquire(std::uint32_t id, const std::string& network) {
+  if (id > kMaxDomainId) {
+    throw BusError("DDS domain id " + std::to_string(id) + ": expected 0.." + std::to_string(kMaxDomainId));
+  }
+  const std::lock_guard lock(open_domains_mutex);
+  auto found = open_domains.find(id);
+  if (found == open_domains.end()) {
+    found = open_domains.emplace(id, OpenDomain{create_domain(id, network), network}).first;
+  } else if (found->second.network != network) {
+    throw BusError("DDS domain " + std::to_string(id) + " is open on network '" + found->second.network +
+                   "' in this process; expected the same and not '" + network + "'");
+  }
+  ++found->second.users;
+}
+
+void release(std::uint32_t id) noexcept {
+  // Deleted under the lock, so that a new Domain of this id never meets a half-closed one.
+  const std::lock_guard lock(open_domains_mutex);
+  const auto found = open_domains.find(id);
+  if (--found->second.users == 0) open_domains.erase(found);
+}
+
+}  // namespace
+
+class Domain::Impl {
+ public:
+  Impl(std::uint32_t id, const std::string& network) : membership_(id, network) {
+    const LogCapture log;
+    const dds_entity_t created = dds_create_participant(id, nullptr, nullptr);
+    participant_ = Entity(created, attempt_text("join", id, network, log));
+  }
+
+  [[nodiscard]] dds_entity_t participant() const noexcept { return participant_.get(); }
+
+ private:
+  struct Membership {
+    Membership(std::uint32_t domain_id, const std::string& network) : id(domain_id) { acquire(id, network); }
+    ~Membership() { release(id); }
+    Membership(const Membership&) = delete;
+    Membership& operator=(const Membership&) = delete;
+    std::uint32_t id;
+  };
+
+  Membership membership_;  // outlives the participant
+  Entity participant_;
+};
+
+Domain::Domain(std::uint32_t id, const std::string& network)
+    : impl_(std::make_shared<const Impl>(id, network)) {}
+
+std::int32_t Domain::participant() const noexcept { return impl_->participant(); }
+
+}  // namespace gyrod::bus

@@ -1,0 +1,36 @@
+/// Where the middleware's own log messages go.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace gyrod::bus {
+
+enum class LogLevel { kInfo, kWarning, kError };
+
+/// Called by any thread, by one at a time. Must not throw and must not call into bus/.
+using LogHandler = std::function<void(LogLevel, std::string_view message)>;
+
+/// Leads the messages of Cyclone DDS to `handler`, for the whole process. Call it before the first Domain is
+/// made, and with an empty handler before what it refers to dies; without a handler messages go to standard
+/// error.
+void set_log_handler(LogHandler handler);
+
+/// While it lives, also keeps the warnings and errors that this thread causes: the reason behind a failed
+/// call. One a thread at a time.
+class LogCapture {
+ public:
+  LogCapture();
+  ~LogCapture();
+  LogCapture(const LogCapture&) = delete;
+  LogCapture& operator=(const LogCapture&) = delete;
+
+  /// The messages so far, separated by "; ".
+  [[nodiscard]] const std::string& text() const noexcept { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace gyrod::bus

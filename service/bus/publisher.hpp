@@ -1,0 +1,55 @@
+/// Denoised samples and noise reports to DDS.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "bus/bus_options.hpp"
+#include "bus/domain.hpp"
+#include "stream/report.hpp"
+#include "stream/sample.hpp"
+
+namespace gyrod::bus {
+
+/// Publishes what the engine releases. Never waits for a reader on the network: it keeps the last messages of
+/// every sensor and lets go of older ones. Every method may be called by several threads at once; one
+/// sensor's samples stay in the order of the calls if its calls do not overlap (as with stream::Sink).
+class Publisher {
+ public:
+  /// @throws BusError naming topic, QoS and DDS's answer
+  Publisher(const Domain& domain, const BusOptions& options);
+  ~Publisher();
+  Publisher(Publisher&&) noexcept;
+  Publisher& operator=(Publisher&&) noexcept;
+
+  /// Writes every sample to the topic of singles and all of them, in batches, to the topic of batches; a
+  /// topic without readers costs next to nothing. Everything has left when it returns. Allocates only a
+  /// thread's first time.
+  /// @pre fits_wire(sensor)
+  void publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept;
+
+  /// Writes the report, also without a reader: a later one gets the newest. @pre fits_wire(sensor)
+  void publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept;
+
+  /// The sensor has ended: readers are told after what was published before, and what the writers keep of it
+  /// is let go.
+  /// @pre fits_wire(sensor)
+  void unregister_sensor(std::string_view sensor) noexcept;
+
+  /// Waits until every reliable reader has confirmed what was published; call it before the end, so that the
+  /// last samples arrive.
+  /// @return false if they did not in time
+  bool wait_for_acknowledgements(std::chrono::milliseconds timeout) noexcept;
+
+  /// Messages that DDS did not take.
+  [[nodiscard]] std::uint64_t write_errors() const noexcept;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gyrod::bus

@@ -1,0 +1,275 @@
+/// Denoised samples and reports from the publisher to readers.
+#include "bus/publisher.hpp"
+
+#include <atomic>
+#include <gyrod.h>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "bus/bus_error.hpp"
+#include "bus/qos.hpp"
+#include "bus/raw_writer.hpp"
+#include "bus/recorder.hpp"
+#include "bus/topic_reader.hpp"
+#include "unit/bus/bus_test.hpp"
+
+namespace gyrod::bus::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+
+std::vector<stream::DenoisedSample> make_denoised(std::uint64_t first, std::size_t count) {
+  std::vector<stream::DenoisedSample> samples;
+  for (const stream::Sample& raw : make_samples(first, count)) {
+    stream::DenoisedSample sample{raw.sequence, raw.stamp_ns, raw.rate_radps};
+    sample.flags = static_cast<std::uint32_t>(raw.sequence % 16);
+    sample.noise_source = static_cast<stream::NoiseSource>(raw.sequence % 4);
+    sample.noise_floor_radps = {0.5, -0.0, 1e-310};
+    sample.model_epoch = raw.sequence / 32;
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+void expect_same(const std::vector<stream::DenoisedSample>& actual,
+                 const std::vector<stream::DenoisedSample>& expected) {
+  ASSERT_EQ(actual.size(), expected.size());
+  for (std::size_t i = 0; i < actual.size(); ++i) {
+    EXPECT_EQ(actual[i].sequence, expected[i].sequence);
+    EXPECT_EQ(actual[i].stamp_ns, expected[i].stamp_ns);
+    EXPECT_EQ(actual[i].rate_radps, expected[i].rate_radps);
+    EXPECT_EQ(actual[i].flags, expected[i].flags);
+    EXPECT_EQ(actual[i].noise_source, expected[i].noise_source);
+    EXPECT_EQ(actual[i].noise_floor_radps, expected[i].noise_floor_radps);
+    EXPECT_EQ(actual[i].model_epoch, expected[i].model_epoch);
+  }
+}
+
+class PublisherTest : public BusTest {
+ protected:
+  /// A recorder that a writer of its topic has found.
+  [[nodiscard]] Recorder matched_recorder(const std::string& topic) {
+    Recorder recorder(reader_domain(), options_, topic, kPatience);
+    wait_until([&] { return recorder.matched_writers() > 0; });
+    return recorder;
+  }
+
+  /// Publishes until the recorder got something: the publisher skips a topic whose readers it has not found
+  /// yet.
+  static void publish_first(Publisher& publisher, Recorder& recorder, RecordCollector& collector) {
+    wait_until([&] {
+      publisher.publish("first", make_denoised(0, 1));
+      return recorder.poll(std::chrono::milliseconds(1), collector) == Recorder::Poll::kSamples;
+    });
+  }
+
+  static void poll_until(Recorder& recorder, RecordCollector& collector, Recorder::Poll result) {
+    wait_until([&] { return recorder.poll(std::chrono::milliseconds(100), collector) == result; });
+  }
+
+  static void poll_until_samples(Recorder& recorder, RecordCollector& collector, const std::string& sensor,
+                                 std::size_t count) {
+    wait_until([&] {
+      (void)recorder.poll(std::chrono::milliseconds(100), collector);
+      return collector.samples(sensor).size() >= count;
+    });
+  }
+
+  RecordCollector collector_;
+};
+
+TEST_P(PublisherTest, EveryFieldSurvivesAsSingleAndInABatch) {
+  options_.max_batch_samples = 24;  // 100 samples go out as four full batches and a rest
+  Publisher publisher(writer_domain(), options_);
+  for (const std::string& topic : {options_.topics.denoised, options_.topics.denoised_batch}) {
+    RecordCollector collector;
+    Recorder recorder = matched_recorder(topic);
+    publish_first(publisher, recorder, collector);
+    publisher.publish("gyro", make_denoised(7, 100));
+    poll_until_samples(recorder, collector, "gyro", 100);
+    expect_same(collector.samples("gyro"), make_denoised(7, 100));
+  }
+  EXPECT_EQ(publisher.write_errors(), 0U);
+}
+
+TEST_P(PublisherTest, RecordersSeeTheEndOfASensorAfterItsSamples) {
+  Publisher publisher(writer_domain(), options_);
+  Recorder recorder = matched_recorder(options_.topics.denoised);
+  publish_first(publisher, recorder, collector_);
+  publisher.publish("gyro", make_denoised(0, 500));
+  publisher.unregister_sensor("gyro");
+  wait_until([&] {
+    (void)recorder.poll(std::chrono::milliseconds(100), collector_);
+    return !collector_.ends().empty();
+  });
+  EXPECT_THAT(collector_.ends(), ElementsAre(Pair("gyro", 500)));
+}
+
+TEST_P(PublisherTest, ARecorderTellsThatTheLastWriterHasGone) {
+  Recorder recorder = [&] {
+    Publisher publisher(writer_domain(), options_);
+    Recorder matched = matched_recorder(options_.topics.denoised_batch);
+    publish_first(publisher, matched, collector_);
+    publisher.publish("gyro", make_denoised(0, 40));
+    return matched;
+  }();
+  poll_until(recorder, collector_, Recorder::Poll::kEnded);
+  EXPECT_EQ(collector_.samples("gyro").size(), 40U);
+}
+
+TEST_P(PublisherTest, ThreadsPublishDifferentSensorsAtOnce) {
+  constexpr std::size_t kThreads = 4;
+  constexpr std::size_t kCalls = 50;
+  constexpr std::size_t kHop = 32;
+  options_.output_depth = kCalls * kHop;  // nothing may be overwritten while the test looks elsewhere
+  Publisher publisher(writer_domain(), options_);
+  Recorder recorder = matched_recorder(options_.topics.denoised);
+  publish_first(publisher, recorder, collector_);
+  std::vector<std::thread> workers;
+  for (std::size_t t = 0; t < kThreads; ++t) {
+    workers.emplace_back([&publisher, t] {
+      for (std::size_t call = 0; call < kCalls; ++call) {
+        publisher.publish("gyro" + std::to_string(t), make_denoised(call * kHop, kHop));
+      }
+    });
+  }
+  for (std::thread& worker : workers) worker.join();
+  for (std::size_t t = 0; t < kThreads; ++t) {
+    const std::string sensor = "gyro" + std::to_string(t);
+    poll_until_samples(recorder, collector_, sensor, kCalls * kHop);
+    expect_same(collector_.samples(sensor), make_denoised(0, kCalls * kHop));
+  }
+}
+
+TEST_P(PublisherTest, ATopicOfUnknownNameIsReadByTheTypeItsWriterShows) {
+  BusOptions elsewhere = options_;
+  elsewhere.topics.raw_batch = options_.topics.raw + "/elsewhere";
+  RawWriter writer(writer_domain(), elsewhere, 16);
+  Recorder recorder(reader_domain(), options_, elsewhere.topics.raw_batch, kPatience);
+  EXPECT_EQ(recorder.type_name(), "gyrod::GyroBatch");
+  ASSERT_TRUE(writer.wait_for_subscriber(kPatience));
+  const std::vector<stream::Sample> samples = make_samples(3, 40);
+  ASSERT_EQ(writer.publish("gyro", samples), samples.size());
+  poll_until_samples(recorder, collector_, "gyro", samples.size());
+  EXPECT_EQ(sequence_numbers(collector_.samples("gyro")), sequence_numbers(samples));
+  EXPECT_EQ(collector_.samples("gyro").back().rate_radps, samples.back().rate_radps);
+  EXPECT_EQ(collector_.samples("gyro").back().flags, 0U);
+}
+
+TEST_P(PublisherTest, ATopicOfAnotherTypeIsNamedWithItsType) {
+  Publisher publisher(writer_domain(), options_);  // its noise topic has no samples
+  BusOptions other = options_;
+  other.topics.noise = "unused";
+  try {
+    Recorder recorder(reader_domain(), other, options_.topics.noise, kPatience);
+    FAIL() << "accepted";
+  } catch (const BusError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(options_.topics.noise));
+    EXPECT_THAT(error.what(), HasSubstr("gyrod::NoiseReport"));
+  }
+}
+
+TEST_P(PublisherTest, ATopicWithoutAWriterIsNamed) {
+  try {
+    Recorder recorder(reader_domain(), options_, "no/such/topic", std::chrono::milliseconds(20));
+    FAIL() << "accepted";
+  } catch (const BusError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no/such/topic"));
+  }
+}
+
+/// A report with every array full; axis x holds other figures than y.
+stream::NoiseReport full_report() {
+  stream::NoiseReport report{9, 12345, -6, 16, 32, 99.5, stream::NoiseSource::kStandstill, 5, 0.0015, {}};
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+    core::WindowReport& window = report.axis[axis];
+    const auto base = static_cast<double>(axis + 1);
+    window = {1024, core::kMaxImfs, 3, 6, base * 0.1, base * 0.2, base * 0.3, {}};
+    for (std::size_t i = 0; i < core::kMaxImfs; ++i) {
+      const double value = base * 100.0 + static_cast<double>(i);
+      core::ImfFigures& imf = window.imf[i];
+      imf = {static_cast<core::ImfClass>(i % 3),
+             value + 0.1,
+             value + 0.2,
+             value + 0.3,
+             value + 0.4,
+             value + 0.5,
+             value + 0.6,
+             core::kMaxArOrder,
+             {}};
+      for (std::size_t p = 0; p < core::kMaxArOrder; ++p)
+        imf.ar_coefficients[p] = value * static_cast<double>(p + 1);
+    }
+  }
+  return report;
+}
+
+void expect_same(const gyrod_ImfReport& wire, const core::ImfFigures& imf) {
+  EXPECT_EQ(wire.imf_class, static_cast<std::uint32_t>(imf.imf_class));
+  EXPECT_EQ(wire.pcc, imf.pcc);
+  EXPECT_EQ(wire.acf_variance, imf.acf_variance);
+  EXPECT_EQ(wire.acf_concentration, imf.acf_concentration);
+  EXPECT_EQ(wire.mean_period_samples, imf.mean_period_samples);
+  EXPECT_EQ(wire.energy_rad2ps2, imf.energy);
+  EXPECT_EQ(wire.excess, imf.excess);
+  ASSERT_EQ(wire.ar_coefficients._length, imf.ar_order);
+  for (std::size_t p = 0; p < imf.ar_order; ++p)
+    EXPECT_EQ(wire.ar_coefficients._buffer[p], imf.ar_coefficients[p]);
+}
+
+void expect_same(const gyrod_AxisReport& wire, const core::WindowReport& window) {
+  EXPECT_EQ(wire.window_samples, window.window_samples);
+  EXPECT_EQ(wire.j, window.j);
+  EXPECT_EQ(wire.k, window.k);
+  EXPECT_EQ(wire.noise_floor_radps, window.noise_floor);
+  EXPECT_EQ(wire.output_noise_radps, window.output_noise);
+  EXPECT_EQ(wire.mean_radps, window.mean);
+  ASSERT_EQ(wire.imfs._length, window.imf_count);
+  for (std::size_t i = 0; i < window.imf_count; ++i) expect_same(wire.imfs._buffer[i], window.imf[i]);
+}
+
+void expect_same(const gyrod_NoiseReport& wire, const stream::NoiseReport& report) {
+  EXPECT_EQ(wire.model_epoch, report.model_epoch);
+  EXPECT_EQ(wire.last_sequence_number, report.last_sequence);
+  EXPECT_EQ(wire.last_stamp_ns, report.last_stamp_ns);
+  EXPECT_EQ(wire.lag_samples, report.lag_samples);
+  EXPECT_EQ(wire.hop_samples, report.hop_samples);
+  EXPECT_EQ(wire.sample_rate_hz, report.sample_rate_hz);
+  EXPECT_EQ(wire.noise_source, static_cast<std::uint32_t>(report.noise_source));
+  EXPECT_EQ(wire.flags, report.flags);
+  EXPECT_EQ(wire.window_time_s, report.window_time_s);
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) expect_same(wire.axis[axis], report.axis[axis]);
+}
+
+TEST_P(PublisherTest, AFullAndAnEmptyReportSurviveAndTheLastOneServesALateReader) {
+  Publisher publisher(writer_domain(), options_);
+  const stream::NoiseReport empty{};
+  publisher.publish_report("overwritten", empty);
+  publisher.publish_report("overwritten", full_report());
+  publisher.publish_report("empty", empty);
+
+  Qos qos;
+  qos.reliable(0).keep_all().latest_for_late_joiners();
+  const Domain domain = reader_domain();
+  const TopicReader<gyrod_NoiseReport> reader(domain.participant(), options_.topics.noise, qos);
+  std::size_t full_ones = 0;
+  std::size_t empty_ones = 0;
+  wait_until([&] {
+    reader.take([&](const gyrod_NoiseReport& wire, const dds_sample_info_t&) {
+      const bool is_empty = std::string_view(wire.sensor) == "empty";
+      expect_same(wire, is_empty ? empty : full_report());
+      ++(is_empty ? empty_ones : full_ones);
+    });
+    return empty_ones + full_ones == 2;
+  });
+  EXPECT_EQ(full_ones, 1U);
+  EXPECT_EQ(empty_ones, 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bus, PublisherTest, testing::Values(Route::kInProcess, Route::kUdp), route_name);
+
+}  // namespace
+}  // namespace gyrod::bus::test
