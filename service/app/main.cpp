@@ -1,1 +1,3 @@
-int main() {}
+#include "app/command_line.hpp"
+
+int main(int argc, char** argv) { return gyrod::app::run_command_line(argc, argv); }

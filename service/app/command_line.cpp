@@ -1,0 +1,64 @@
+#include "app/command_line.hpp"
+
+#include <cstdio>
+#include <exception>
+
+#include "app/command.hpp"
+#include "app/errors.hpp"
+#include "app/exit_code.hpp"
+#include "app/version.hpp"
+#include "bus/bus_error.hpp"
+#include "files/file_error.hpp"
+#include "settings/load.hpp"
+
+namespace gyrod::app {
+namespace {
+
+int complain(const std::exception& error, ExitCode code) noexcept {
+  std::fprintf(stderr, "gyrod: %s\n", error.what());
+  return code;
+}
+
+int parse_and_act(int argc, const char* const* argv) {
+  CLI::App parser(
+      "gyrod denoises MEMS gyroscopes: live on Cyclone DDS topics (run), or a recording (denoise).\n"
+      "Windowed improved EMD with AR-Kalman filtering; method and sources: docs/method.md.");
+  parser.name("gyrod");
+  parser.set_version_flag("--version", version_text(), "Print the version and what it is built on");
+  parser.require_subcommand(1);
+  parser.footer(std::string("gyrod SUBCOMMAND --help explains one, with examples.\n") + kExitCodesHelp);
+  Action chosen;
+  for (const auto add : {add_run, add_validate, add_denoise, add_replay, add_record, add_simulate})
+    add(parser, chosen);
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return parser.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+  Interrupt interrupt;
+  return chosen(interrupt);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) noexcept {
+  try {
+    return parse_and_act(argc, argv);
+  } catch (const CLI::Error& error) {
+    return complain(error, kWrongUsage);
+  } catch (const settings::SettingsError& error) {
+    return complain(error, kWrongSettings);
+  } catch (const files::FileError& error) {
+    return complain(error, kFileTrouble);
+  } catch (const bus::BusError& error) {
+    return complain(error, kUnavailable);
+  } catch (const Unavailable& error) {
+    return complain(error, kUnavailable);
+  } catch (const Incomplete& error) {
+    return complain(error, kIncomplete);
+  } catch (const std::exception& error) {
+    return complain(error, kFailed);
+  }
+}
+
+}  // namespace gyrod::app

@@ -1,0 +1,138 @@
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "app/command.hpp"
+#include "app/denoise_summary.hpp"
+#include "app/exit_code.hpp"
+#include "app/flags.hpp"
+#include "app/offline_denoiser.hpp"
+#include "app/progress_bar.hpp"
+#include "files/output_file.hpp"
+#include "files/recording_reader.hpp"
+#include "files/recording_writer.hpp"
+
+namespace gyrod::app {
+namespace {
+
+struct DenoiseFlags {
+  std::string input;
+  std::string output;
+  std::string config;
+  std::string summary;
+  RecordingFlags recording;
+};
+
+/// Denoised rows go to the file; refused ones stay as they are.
+class RowsToFile final : public RowHandler {
+ public:
+  explicit RowsToFile(files::RecordingWriter& writer) : writer_(writer) {}
+  void on_denoised(const std::string& row_text,
+                   const std::array<double, stream::kAxes>& rate_radps) override {
+    writer_.write(row_text, rate_radps);
+  }
+  void on_refused(const std::string& row_text) override { writer_.write_unchanged(row_text); }
+
+ private:
+  files::RecordingWriter& writer_;
+};
+
+/// @return false if it was interrupted
+bool denoise_rows(files::RecordingReader& reader, OfflineDenoiser& denoiser, Interrupt& interrupt) {
+  constexpr std::uint64_t kLookUpEvery = 256;  // a few windows: well under a tenth of a second
+  ProgressBar progress("denoising");
+  files::RecordingRow row;
+  while (reader.next(row)) {
+    denoiser.push(row);
+    if (reader.rows() % kLookUpEvery != 0) continue;
+    if (interrupt.requested()) return false;
+    progress.show(reader.progress(), reader.rows());
+  }
+  denoiser.finish();
+  return true;
+}
+
+void tell(const DenoiseFlags& flags, const stream::Counts& counts, std::uint64_t broken_rows) {
+  std::fprintf(stderr, "%s: %llu samples denoised in %llu windows\n", flags.output.c_str(),
+               static_cast<unsigned long long>(counts.published - counts.passed_through),
+               static_cast<unsigned long long>(counts.windows));
+  const auto note = [](std::uint64_t count, const std::string& what) {
+    if (count > 0) std::fprintf(stderr, "  %llu %s\n", static_cast<unsigned long long>(count), what.c_str());
+  };
+  note(counts.passed_through, "samples kept as they were: too few in a row to denoise");
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
+    note(counts.rejected[i], "samples refused and kept as they were: " +
+                                 std::string(name_of(static_cast<stream::RejectReason>(i))));
+  }
+  note(counts.missing, "samples missing from the input");
+  note(broken_rows, "broken rows left out");
+}
+
+const char* name_of(settings::Screening screening) noexcept {
+  return screening == settings::Screening::kPaper ? "paper" : "windowed";
+}
+
+int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
+  const settings::Settings settings = load_or_default(flags.config);
+  files::RecordingReader reader(flags.input, flags.recording.options);
+  files::RecordingWriter writer(flags.output, reader.header());
+  std::optional<files::OutputFile> summary_file;
+  if (!flags.summary.empty()) summary_file.emplace(flags.summary);
+
+  RowsToFile rows(writer);
+  DenoiseSummary summary;
+  OfflineDenoiser denoiser(settings, rows, summary);
+  if (!denoise_rows(reader, denoiser, interrupt)) {
+    std::fprintf(stderr, "gyrod: interrupted, nothing written\n");
+    return kInterrupted;
+  }
+
+  writer.close();
+  const stream::Counts counts = denoiser.counts();
+  if (summary_file) {
+    summary_file->write(summary.json({.input = flags.input,
+                                      .output = flags.output,
+                                      .method = "paper",
+                                      .screening = name_of(settings.denoise.screening),
+                                      .broken_rows = reader.broken_rows()},
+                                     counts));
+    summary_file->close();
+  }
+  tell(flags, counts, reader.broken_rows());
+  return kDone;
+}
+
+}  // namespace
+
+void add_denoise(CLI::App& parser, Action& chosen) {
+  CLI::App* command = parser.add_subcommand("denoise", "Denoise a recording");
+  const auto flags = std::make_shared<DenoiseFlags>();
+  command->add_option("input", flags->input, "Recording: CSV, plain or gzip; - for standard input")
+      ->type_name("IN.csv[.gz]")
+      ->required();
+  command
+      ->add_option("-o,--output", flags->output,
+                   "Denoised recording; gzip if it ends in .gz; - for standard output")
+      ->type_name("OUT.csv[.gz]")
+      ->required();
+  command->add_option("--config", flags->config, "Configuration file: its groups denoise and limits")
+      ->type_name("FILE");
+  command->add_option("--summary", flags->summary, "Write counts and noise figures as JSON")
+      ->type_name("FILE.json");
+  flags->recording.add_to(*command);
+  command->footer(
+      "The output has the input's columns, names and units; only the angular rates change. Columns:\n"
+      "  gyro_x_UNIT, gyro_y_UNIT, gyro_z_UNIT   UNIT: radps, mradps, dps, mdps, dph\n"
+      "  timestamp_s or stamp_ns (also _us, _ms) time of measurement; without it --rate applies\n"
+      "  sample or sequence                      number of the sample; without it rows are counted\n"
+      "  anything else                           passes through\n"
+      "Samples that are refused (nan, out of range, duplicate, ...) stay as they are and are counted.\n"
+      "The result is the daemon's for the same samples, bit for bit. OUT appears when it is complete.\n\n"
+      "Examples:\n"
+      "  gyrod denoise drive.csv -o denoised.csv\n"
+      "  gyrod denoise drive.csv.gz -o denoised.csv.gz --summary summary.json");
+  command->callback(
+      [&chosen, flags] { chosen = [flags](Interrupt& interrupt) { return denoise(*flags, interrupt); }; });
+}
+
+}  // namespace gyrod::app

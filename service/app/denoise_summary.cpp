@@ -1,0 +1,83 @@
+#include "app/denoise_summary.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "app/version.hpp"
+
+namespace gyrod::app {
+
+void RunningMoments::add(double value) noexcept {
+  ++count_;
+  const double change = value - mean_;
+  mean_ += change / static_cast<double>(count_);
+  squares_ += change * (value - mean_);
+}
+
+double RunningMoments::standard_deviation() const noexcept {
+  return count_ < 2 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_));
+}
+
+void DenoiseSummary::add(const std::array<double, stream::kAxes>& measured_radps,
+                         const std::array<double, stream::kAxes>& denoised_radps) {
+  for (std::size_t i = 0; i < stream::kAxes; ++i) {
+    axes_[i].measured.add(measured_radps[i]);
+    axes_[i].denoised.add(denoised_radps[i]);
+  }
+}
+
+void DenoiseSummary::add(const stream::NoiseReport& report) {
+  sample_rate_hz_ = report.sample_rate_hz;
+  for (std::size_t i = 0; i < stream::kAxes; ++i) {
+    const core::WindowReport& window = report.axis[i];
+    axes_[i].noise_floor.add(window.noise_floor);
+    axes_[i].output_noise.add(window.output_noise);
+    axes_[i].imfs.add(static_cast<double>(window.imf_count));
+    axes_[i].j.add(static_cast<double>(window.j));
+    axes_[i].k.add(static_cast<double>(window.k));
+  }
+}
+
+std::string DenoiseSummary::json(const Source& source, const stream::Counts& counts) const {
+  nlohmann::ordered_json rejected = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
+    rejected[std::string(stream::name_of(static_cast<stream::RejectReason>(i)))] = counts.rejected[i];
+  }
+  nlohmann::ordered_json axes = nlohmann::ordered_json::object();
+  constexpr std::array<const char*, stream::kAxes> kNames = {"x", "y", "z"};
+  for (std::size_t i = 0; i < stream::kAxes; ++i) {
+    const Axis& axis = axes_[i];
+    axes[kNames[i]] = {{"mean_in_radps", axis.measured.mean()},
+                       {"mean_out_radps", axis.denoised.mean()},
+                       {"std_in_radps", axis.measured.standard_deviation()},
+                       {"std_out_radps", axis.denoised.standard_deviation()},
+                       {"noise_floor_radps", axis.noise_floor.mean()},
+                       {"output_noise_radps", axis.output_noise.mean()},
+                       {"mean_imfs", axis.imfs.mean()},
+                       {"mean_j", axis.j.mean()},
+                       {"mean_k", axis.k.mean()}};
+  }
+  const nlohmann::ordered_json summary = {{"gyrod_version", version()},
+                                          {"input", source.input},
+                                          {"output", source.output},
+                                          {"method", source.method},
+                                          {"screening", source.screening},
+                                          {"sample_rate_hz", sample_rate_hz_},
+                                          {"samples",
+                                           {{"received", counts.received},
+                                            {"denoised", counts.published - counts.passed_through},
+                                            {"passed_through", counts.passed_through},
+                                            {"warming_up", counts.warming_up},
+                                            {"rejected", rejected},
+                                            {"missing", counts.missing},
+                                            {"bridged", counts.bridged}}},
+                                          {"broken_rows", source.broken_rows},
+                                          {"gaps", counts.gaps},
+                                          {"restarts", counts.restarts},
+                                          {"windows", counts.windows},
+                                          {"axes", axes}};
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace gyrod::app

@@ -1,0 +1,60 @@
+/// What `gyrod denoise --summary` tells.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "stream/counters.hpp"
+#include "stream/report.hpp"
+
+namespace gyrod::app {
+
+/// Mean and standard deviation, one value at a time (Welford 1962).
+class RunningMoments {
+ public:
+  void add(double value) noexcept;
+  [[nodiscard]] double mean() const noexcept { return mean_; }
+  /// Of the values themselves (divided by n); 0 for fewer than two.
+  [[nodiscard]] double standard_deviation() const noexcept;
+
+ private:
+  std::uint64_t count_ = 0;
+  double mean_ = 0.0;
+  double squares_ = 0.0;
+};
+
+/// Gathers figures over a recording, sample by sample and window by window.
+class DenoiseSummary {
+ public:
+  void add(const std::array<double, stream::kAxes>& measured_radps,
+           const std::array<double, stream::kAxes>& denoised_radps);
+  void add(const stream::NoiseReport& report);
+
+  struct Source {
+    std::string input;
+    std::string output;
+    std::string method;
+    std::string screening;
+    std::uint64_t broken_rows = 0;
+  };
+
+  /// JSON, with the unit in every key that has one.
+  [[nodiscard]] std::string json(const Source& source, const stream::Counts& counts) const;
+
+ private:
+  struct Axis {
+    RunningMoments measured;
+    RunningMoments denoised;
+    RunningMoments noise_floor;
+    RunningMoments output_noise;
+    RunningMoments imfs;
+    RunningMoments j;
+    RunningMoments k;
+  };
+
+  std::array<Axis, stream::kAxes> axes_;
+  double sample_rate_hz_ = 0.0;
+};
+
+}  // namespace gyrod::app

@@ -1,0 +1,64 @@
+#include "app/flags.hpp"
+
+#include "settings/load.hpp"
+
+namespace gyrod::app {
+namespace {
+
+/// Text to speed: "max" or a number above 0. CLI11 hands text that fails to the user.
+std::string check_speed(const std::string& text) {
+  if (text == "max") return {};
+  double speed = 0.0;
+  const bool good = CLI::detail::lexical_cast(text, speed) && speed > 0.0 && speed <= 1e6;
+  return good ? std::string{} : "--speed is '" + text + "'; expected a number above 0, or max";
+}
+
+}  // namespace
+
+void BusFlags::add_to(CLI::App& command) {
+  command
+      .add_option("--config", config, "Configuration file: domain, network and topic names are taken from it")
+      ->type_name("FILE");
+  command.add_option("--domain", domain, "DDS domain, 0 to 230 [as configured, else 0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 230));
+  command
+      .add_option("--network", network,
+                  "loopback: this machine only; default: as CYCLONEDDS_URI says or Cyclone DDS finds it;\n"
+                  "else a Cyclone DDS XML file [as configured, else loopback]")
+      ->type_name("NET");
+}
+
+settings::Settings BusFlags::load() const {
+  settings::Settings settings = load_or_default(config);
+  if (domain) settings.bus.domain = *domain;
+  if (network) settings.bus.network = *network;
+  return settings;
+}
+
+void RecordingFlags::add_to(CLI::App& command) {
+  command
+      .add_option("--rate", options.nominal_rate_hz,
+                  "Sample rate in Hz where the file has no time column [100]")
+      ->type_name("HZ")
+      ->check(CLI::Range(1e-3, 1e6));
+  command.add_flag("--allow-missing-axes", options.allow_missing_axes,
+                   "Take a file without one or two of the axes; they count as 0");
+  command.add_flag("--skip-broken-rows", options.skip_broken_rows,
+                   "Leave out and count rows that cannot be read, instead of ending with an error");
+}
+
+void SpeedFlag::add_to(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--speed", [this](const std::string& text) { speed = text == "max" ? 0.0 : std::stod(text); },
+          "Times real time, e.g. 10; max: as fast as readers take them [1]")
+      ->type_name("X|max")
+      ->check(check_speed);
+}
+
+settings::Settings load_or_default(const std::string& config) {
+  return config.empty() ? settings::Settings{} : settings::load_settings(config);
+}
+
+}  // namespace gyrod::app

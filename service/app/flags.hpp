@@ -1,0 +1,45 @@
+/// Groups of command-line options that several subcommands share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "files/recording_reader.hpp"
+#include "settings/settings.hpp"
+
+namespace gyrod::app {
+
+/// Where the bus is.
+struct BusFlags {
+  std::string config;
+  std::optional<std::uint32_t> domain;
+  std::optional<std::string> network;
+
+  void add_to(CLI::App& command);
+  /// The configuration file's settings, or the defaults where none is named, with the flags on top.
+  /// @throws settings::SettingsError
+  [[nodiscard]] settings::Settings load() const;
+};
+
+/// How a recording is read.
+struct RecordingFlags {
+  files::ReaderOptions options;
+
+  void add_to(CLI::App& command);
+};
+
+/// How fast samples are sent: by their stamps.
+struct SpeedFlag {
+  /// Times real time; 0: as fast as readers take them.
+  double speed = 1.0;
+
+  void add_to(CLI::App& command);
+};
+
+/// Settings of a configuration file, or the defaults where none is named. @throws settings::SettingsError
+[[nodiscard]] settings::Settings load_or_default(const std::string& config);
+
+}  // namespace gyrod::app

@@ -1,0 +1,66 @@
+#include "app/offline_denoiser.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "app/options.hpp"
+
+namespace gyrod::app {
+namespace {
+
+constexpr std::string_view kSensor = "recording";
+
+double clock_that_stands_still() { return 0.0; }
+
+}  // namespace
+
+OfflineDenoiser::OfflineDenoiser(const settings::Settings& settings, RowHandler& handler,
+                                 DenoiseSummary& summary)
+    : handler_(handler),
+      summary_(summary),
+      engine_(offline_engine_options(settings), method(settings.denoise), *this, clock_that_stands_still) {}
+
+void OfflineDenoiser::push(files::RecordingRow& row) {
+  waiting_.push_back({std::move(row.text), row.sample.rate_radps, true});
+  // A refused sample releases nothing, so the row's fate is known before anyone asks for it.
+  waiting_.back().accepted = engine_.push(kSensor, {&row.sample, 1}) == 1;
+  hand_on();
+}
+
+void OfflineDenoiser::finish() {
+  engine_.end_of_stream(kSensor);
+  hand_on();
+  hand_on_refused();
+  assert(waiting_.empty());
+}
+
+void OfflineDenoiser::hand_on() {
+  for (const stream::DenoisedSample& sample : released_) {
+    hand_on_refused();
+    const WaitingRow row = std::move(waiting_.front());
+    waiting_.pop_front();
+    summary_.add(row.measured_radps, sample.rate_radps);
+    handler_.on_denoised(row.text, sample.rate_radps);
+  }
+  released_.clear();
+}
+
+/// Rows at the front whose samples will never be released.
+void OfflineDenoiser::hand_on_refused() {
+  while (!waiting_.empty() && !waiting_.front().accepted) {
+    handler_.on_refused(waiting_.front().text);
+    waiting_.pop_front();
+  }
+}
+
+void OfflineDenoiser::on_samples(std::string_view, std::span<const stream::DenoisedSample> samples) noexcept {
+  released_.insert(released_.end(), samples.begin(), samples.end());
+}
+
+void OfflineDenoiser::on_report(std::string_view, const stream::NoiseReport& report) noexcept {
+  summary_.add(report);
+}
+
+void OfflineDenoiser::on_end(std::string_view) noexcept {}
+
+}  // namespace gyrod::app

@@ -1,0 +1,66 @@
+/// A recording through the daemon's engine.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/denoise_summary.hpp"
+#include "files/recording_reader.hpp"
+#include "settings/settings.hpp"
+#include "stream/engine.hpp"
+
+namespace gyrod::app {
+
+/// Where denoised rows go, in the order of the recording.
+class RowHandler {
+ public:
+  virtual ~RowHandler() = default;
+  virtual void on_denoised(const std::string& row_text,
+                           const std::array<double, stream::kAxes>& rate_radps) = 0;
+  /// The engine refused the row's sample.
+  virtual void on_refused(const std::string& row_text) = 0;
+};
+
+/// Runs the rows of one sensor through an engine without workers. Its clock stands still, so that overload
+/// does not exist here and the result depends on the rows alone: it is what the daemon publishes for them,
+/// bit for bit. Memory: the rows between the newest and the oldest one not released (lag + hop, and refused
+/// rows among them). One thread at a time.
+class OfflineDenoiser final : private stream::Sink {
+ public:
+  /// @param handler, summary have to outlive the denoiser
+  OfflineDenoiser(const settings::Settings& settings, RowHandler& handler, DenoiseSummary& summary);
+
+  /// Takes the next row; its text is moved out. Hands on the rows that this makes ready; what the handler
+  /// throws leaves here.
+  void push(files::RecordingRow& row);
+  /// The recording has ended: hands on the rest.
+  void finish();
+
+  [[nodiscard]] stream::Counts counts() const { return engine_.snapshot().totals; }
+
+ private:
+  struct WaitingRow {
+    std::string text;
+    std::array<double, stream::kAxes> measured_radps{};
+    bool accepted = true;
+  };
+
+  void on_samples(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept override;
+  void on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept override;
+  void on_end(std::string_view sensor) noexcept override;
+  void hand_on();
+  void hand_on_refused();
+
+  RowHandler& handler_;
+  DenoiseSummary& summary_;
+  std::deque<WaitingRow> waiting_;
+  std::vector<stream::DenoisedSample> released_;  ///< by the engine, not handed on yet
+  stream::Engine engine_;
+};
+
+}  // namespace gyrod::app

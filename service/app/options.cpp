@@ -1,0 +1,77 @@
+#include "app/options.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "app/version.hpp"
+#include "stream/paper_method.hpp"
+
+namespace gyrod::app {
+namespace {
+
+bus::Reliability reliability(settings::Reliability setting) noexcept {
+  return setting == settings::Reliability::kReliable ? bus::Reliability::kReliable
+                                                     : bus::Reliability::kBestEffort;
+}
+
+}  // namespace
+
+bus::BusOptions bus_options(const settings::BusSettings& settings) {
+  bus::BusOptions options;
+  options.domain_id = settings.domain;
+  options.network = settings.network;
+  options.topics = {.raw = settings.topics.raw,
+                    .raw_batch = settings.topics.raw_batch,
+                    .denoised = settings.topics.denoised,
+                    .denoised_batch = settings.topics.denoised_batch,
+                    .noise = settings.topics.noise};
+  options.input_reliability = reliability(settings.input.reliability);
+  const bool keep_all = settings.input.history_depth == 0;
+  options.input_history = keep_all ? bus::History::kKeepAll : bus::History::kKeepLast;
+  if (!keep_all) options.input_depth = settings.input.history_depth;
+  options.input_max_messages = settings.input.max_messages;
+  options.max_instances = settings.input.max_sensors;
+  options.output_reliability = reliability(settings.output.reliability);
+  options.output_depth = settings.output.history_depth;
+  options.max_batch_samples = settings.max_batch_samples;
+  return options;
+}
+
+stream::EngineOptions live_engine_options(const settings::Settings& settings) {
+  stream::EngineOptions options = settings.engine;
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  options.workers = settings.workers > 0 ? settings.workers : cores;
+  return options;
+}
+
+stream::EngineOptions offline_engine_options(const settings::Settings& settings) {
+  stream::EngineOptions options = settings.engine;
+  options.workers = 0;
+  options.max_channels = 1;
+  return options;
+}
+
+core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings) {
+  core::DenoiserOptions options;
+  options.emd.sifts = settings.sifts;
+  options.emd.boundary = settings.boundary;
+  options.screening.rule = settings.screening == settings::Screening::kPaper ? core::ScreeningRule::kPaper
+                                                                             : core::ScreeningRule::kWindowed;
+  options.max_ar_order = settings.max_ar_order;
+  return options;
+}
+
+stream::MethodFactory method(const settings::DenoiseSettings& settings) {
+  return stream::paper_method(denoiser_options(settings));
+}
+
+monitor::MonitorOptions monitor_options(const settings::MonitorSettings& settings) {
+  monitor::MonitorOptions options;
+  options.address = settings.address;
+  options.port = settings.port;
+  options.max_channel_series = settings.max_channel_series;
+  options.version = version();
+  return options;
+}
+
+}  // namespace gyrod::app

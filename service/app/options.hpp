@@ -1,0 +1,25 @@
+/// From the configuration's words to the options of the rooms.
+#pragma once
+
+#include "bus/bus_options.hpp"
+#include "core/denoise/denoiser.hpp"
+#include "monitor/monitor.hpp"
+#include "settings/settings.hpp"
+#include "stream/engine.hpp"
+#include "stream/method.hpp"
+
+namespace gyrod::app {
+
+[[nodiscard]] bus::BusOptions bus_options(const settings::BusSettings& settings);
+
+/// For the daemon: as many workers as the settings say, or as there are processor cores.
+[[nodiscard]] stream::EngineOptions live_engine_options(const settings::Settings& settings);
+
+/// For one recording: the same windows and limits, computed in the calling thread.
+[[nodiscard]] stream::EngineOptions offline_engine_options(const settings::Settings& settings);
+
+[[nodiscard]] core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings);
+[[nodiscard]] stream::MethodFactory method(const settings::DenoiseSettings& settings);
+[[nodiscard]] monitor::MonitorOptions monitor_options(const settings::MonitorSettings& settings);
+
+}  // namespace gyrod::app

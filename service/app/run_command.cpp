@@ -1,0 +1,121 @@
+#include <chrono>
+#include <cstdlib>
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
+
+#include "app/command.hpp"
+#include "app/exit_code.hpp"
+#include "app/flags.hpp"
+#include "app/service.hpp"
+#include "app/status_log.hpp"
+#include "app/version.hpp"
+#include "bus/log.hpp"
+
+namespace gyrod::app {
+namespace {
+
+spdlog::level::level_enum level_of(settings::LogLevel level) {
+  switch (level) {
+    case settings::LogLevel::kTrace:
+      return spdlog::level::trace;
+    case settings::LogLevel::kDebug:
+      return spdlog::level::debug;
+    case settings::LogLevel::kInfo:
+      return spdlog::level::info;
+    case settings::LogLevel::kWarning:
+      return spdlog::level::warn;
+    case settings::LogLevel::kError:
+      return spdlog::level::err;
+  }
+  return spdlog::level::info;
+}
+
+void write_middleware_log(bus::LogLevel level, std::string_view message) {
+  // Cyclone calls "info" what only its own developers want to know.
+  const auto severity = level == bus::LogLevel::kError     ? spdlog::level::err
+                        : level == bus::LogLevel::kWarning ? spdlog::level::warn
+                                                           : spdlog::level::debug;
+  spdlog::log(severity, "DDS: {}", message);
+}
+
+/// While it lives, the log is set up, and the middleware's messages are part of it.
+class LogScope {
+ public:
+  explicit LogScope(settings::LogLevel level) {
+    spdlog::set_default_logger(spdlog::stderr_logger_mt("gyrod"));
+    // The journal stamps lines by itself.
+    spdlog::set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%l: %v"
+                                                                 : "%Y-%m-%dT%H:%M:%S.%e%z %l: %v");
+    spdlog::set_level(level_of(level));
+    bus::set_log_handler(write_middleware_log);
+  }
+  ~LogScope() {
+    bus::set_log_handler({});
+    spdlog::shutdown();
+  }
+  LogScope(const LogScope&) = delete;
+  LogScope& operator=(const LogScope&) = delete;
+};
+
+void announce(const settings::Settings& settings, const Service& service) {
+  const auto& topics = settings.bus.topics;
+  spdlog::info("gyrod {}: domain {}, network {}, {} workers", version(), settings.bus.domain,
+               settings.bus.network, service.workers());
+  spdlog::info("reads {} and {}, writes {}, {} and {}", topics.raw, topics.raw_batch, topics.denoised,
+               topics.denoised_batch, topics.noise);
+  if (service.monitor_port() == 0) return;
+  spdlog::info("metrics at http://{}:{}/metrics", settings.monitor.address, service.monitor_port());
+}
+
+void serve(const Service& service, Interrupt& interrupt) {
+  constexpr std::chrono::seconds kTick{1};  // far below any sensible WatchdogSec
+  StatusLog status;
+  while (!interrupt.wait_for(kTick)) {
+    (void)sd_notify(0, "WATCHDOG=1");
+    status.tick(service.snapshot(), service.matched_writers());
+  }
+}
+
+int run(const BusFlags& flags, Interrupt& interrupt) {
+  const settings::Settings settings = flags.load();
+  const LogScope log(settings.log_level);
+  Service service(settings);
+  service.start();
+  announce(settings, service);
+  (void)sd_notify(0, "READY=1\nSTATUS=denoising");
+
+  serve(service, interrupt);
+
+  spdlog::info("stopping: draining what is in flight, {} s at the most", settings.stop_deadline_s);
+  (void)sd_notify(0, "STOPPING=1");
+  const bool denoised = service.stop();
+  const stream::Counts totals = service.snapshot().totals;
+  spdlog::info("stopped: {} samples received, {} published, {} rejected, {} in flight", totals.received,
+               totals.published, totals.rejected_total(), totals.in_flight);
+  if (denoised) return kDone;
+  spdlog::warn("the stop's deadline passed: the rest was passed through undenoised");
+  return kIncomplete;
+}
+
+}  // namespace
+
+void add_run(CLI::App& parser, Action& chosen) {
+  CLI::App* command = parser.add_subcommand("run", "Denoise live: the daemon");
+  const auto flags = std::make_shared<BusFlags>();
+  flags->add_to(*command);
+  command->footer(
+      "Reads raw samples from DDS topics, publishes denoised samples and noise reports, serves metrics\n"
+      "over HTTP. Needs no configuration; config/gyrod.json shows what can be set. Logs to standard\n"
+      "error. SIGTERM or Ctrl-C drains what is in flight and ends: exit code 0, or 6 if the drain\n"
+      "met stop.deadline_s. Tells systemd when it is ready (Type=notify) and feeds its watchdog.\n\n"
+      "Examples:\n"
+      "  gyrod run\n"
+      "  gyrod run --config /etc/gyrod/gyrod.json\n"
+      "  gyrod run & gyrod simulate --motion drive     # a first look, on this machine alone");
+  command->callback(
+      [&chosen, flags] { chosen = [flags](Interrupt& interrupt) { return run(*flags, interrupt); }; });
+}
+
+}  // namespace gyrod::app

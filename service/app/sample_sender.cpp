@@ -1,0 +1,93 @@
+#include "app/sample_sender.hpp"
+
+#include <algorithm>
+
+#include "app/errors.hpp"
+#include "app/options.hpp"
+
+namespace gyrod::app {
+namespace {
+
+/// At full speed one wake-up of the network carries so many samples.
+constexpr std::size_t kSamplesAtOnce = 256;
+constexpr std::chrono::seconds kPatience{60};
+
+/// Whole batches; one by one where every sample has a time of its own.
+std::size_t chunk_of(const SendFlags& flags) {
+  if (flags.speed.speed > 0.0) return flags.batch;
+  return std::max<std::size_t>(1, kSamplesAtOnce / flags.batch) * flags.batch;
+}
+
+}  // namespace
+
+void SendFlags::add_to(CLI::App& command) {
+  command.add_option("--batch", batch, "Samples a message; above 1 on the topic of batches [1]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536));
+  command.add_option("--wait", wait_s, "Seconds to wait for a reader before giving up [10]")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 86400.0));
+  speed.add_to(command);
+}
+
+SampleSender::SampleSender(const settings::BusSettings& settings, const SendFlags& flags,
+                           Interrupt& interrupt)
+    : topic_(flags.batch == 1 ? settings.topics.raw : settings.topics.raw_batch),
+      sensor_(flags.sensor),
+      chunk_(chunk_of(flags)),
+      interrupt_(interrupt),
+      pacer_(flags.speed.speed, interrupt),
+      domain_(settings.domain, settings.network),
+      writer_(domain_, bus_options(settings), flags.batch) {
+  constexpr std::chrono::milliseconds kLook{100};
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::duration<double>(flags.wait_s);
+  while (!writer_.wait_for_subscriber(kLook) && !interrupt.requested()) {
+    if (std::chrono::steady_clock::now() < give_up) continue;
+    throw Incomplete("nobody reads topic '" + topic_ + "' in domain " + std::to_string(settings.domain) +
+                     " on network '" + settings.network +
+                     "'; expected a gyrod run with the same --domain and --network");
+  }
+  waiting_.reserve(chunk_);
+}
+
+bool SampleSender::send(const stream::Sample& sample) {
+  waiting_.push_back(sample);
+  if (waiting_.size() < chunk_) return true;
+  return pacer_.wait_until_due(sample.stamp_ns) && flush();
+}
+
+void SampleSender::finish() {
+  if (!flush()) return;
+  // Without the end gyrod would hold the last samples back, as more might follow.
+  if (!insist([this] { return writer_.end(sensor_); })) return;
+  constexpr std::chrono::milliseconds kLook{200};
+  (void)insist([this, kLook] { return writer_.wait_for_acknowledgements(kLook); });
+}
+
+/// @return false if it was interrupted
+bool SampleSender::flush() {
+  std::size_t done = 0;
+  const bool all = insist([this, &done] {
+    done += writer_.publish(sensor_, std::span(waiting_).subspan(done));
+    return done == waiting_.size();
+  });
+  sent_ += done;
+  waiting_.clear();
+  return all;
+}
+
+/// Tries until it works. @return false if it was interrupted
+template <class Attempt>
+bool SampleSender::insist(const Attempt& attempt) {
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (!attempt()) {
+    if (interrupt_.requested()) return false;
+    if (std::chrono::steady_clock::now() < give_up) continue;
+    throw Incomplete("the readers of topic '" + topic_ + "' have taken nothing for " +
+                     std::to_string(kPatience.count()) + " s; " + std::to_string(sent_) +
+                     " samples were sent");
+  }
+  return true;
+}
+
+}  // namespace gyrod::app

@@ -1,0 +1,67 @@
+/// One sensor's samples to DDS, at the pace of their stamps: what `replay` and `simulate` share.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/flags.hpp"
+#include "app/interrupt.hpp"
+#include "app/pacer.hpp"
+#include "bus/domain.hpp"
+#include "bus/raw_writer.hpp"
+#include "settings/settings.hpp"
+#include "stream/sample.hpp"
+
+namespace gyrod::app {
+
+struct SendFlags {
+  std::string sensor;
+  std::size_t batch = 1;
+  double wait_s = 10.0;
+  SpeedFlag speed;
+
+  /// Adds --batch, --wait and --speed; --sensor differs from command to command.
+  void add_to(CLI::App& command);
+};
+
+/// One thread.
+class SampleSender {
+ public:
+  /// Joins the domain and waits for a reader.
+  /// @throws bus::BusError; Incomplete if nobody reads within flags.wait_s
+  SampleSender(const settings::BusSettings& settings, const SendFlags& flags, Interrupt& interrupt);
+
+  /// Sends the sample when it is due, together with its batch.
+  /// @return false if that was interrupted
+  /// @throws bus::BusError; Incomplete if the readers take nothing for a minute
+  [[nodiscard]] bool send(const stream::Sample& sample);
+
+  /// Sends the rest, tells that the sensor has ended, and waits until all of it has arrived.
+  /// @throws as send()
+  void finish();
+
+  /// Samples handed to DDS.
+  [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
+
+ private:
+  [[nodiscard]] bool flush();
+  template <class Attempt>
+  [[nodiscard]] bool insist(const Attempt& attempt);
+
+  std::string topic_;
+  std::string sensor_;
+  std::size_t chunk_;  ///< samples sent together
+  Interrupt& interrupt_;
+  Pacer pacer_;
+  bus::Domain domain_;
+  bus::RawWriter writer_;
+  std::vector<stream::Sample> waiting_;
+  std::uint64_t sent_ = 0;
+};
+
+}  // namespace gyrod::app

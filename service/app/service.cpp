@@ -1,0 +1,101 @@
+#include "app/service.hpp"
+
+#include <algorithm>
+
+#include "app/errors.hpp"
+#include "app/options.hpp"
+
+namespace gyrod::app {
+namespace {
+
+/// How long readers may take in all to confirm what a stop releases.
+constexpr std::chrono::seconds kLastWord{5};
+
+/// Time for readers to take one cache of messages: 50 000 samples a second at the default depth.
+constexpr std::chrono::milliseconds kBreath{20};
+
+}  // namespace
+
+void ReleaseToBus::on_samples(std::string_view sensor,
+                              std::span<const stream::DenoisedSample> samples) noexcept {
+  while (patience_ns_ > 0 && !samples.empty()) {
+    const auto part = samples.first(std::min(samples.size(), depth_));
+    let_readers_catch_up(part.size());
+    publisher_.publish(sensor, part);
+    samples = samples.subspan(part.size());
+  }
+  if (!samples.empty()) publisher_.publish(sensor, samples);
+}
+
+void ReleaseToBus::on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
+  publisher_.publish_report(sensor, report);
+}
+void ReleaseToBus::on_end(std::string_view sensor) noexcept { publisher_.unregister_sensor(sensor); }
+
+/// Before so many more samples: gives readers the time to take or to ask again for what the writers are about
+/// to let go. Their confirmation is asked for by a timer of the middleware, not at once, so it is not waited
+/// for to the end.
+void ReleaseToBus::let_readers_catch_up(std::size_t samples) noexcept {
+  if ((unconfirmed_ += samples) <= depth_) return;
+  unconfirmed_ = samples;
+  const auto begin = std::chrono::steady_clock::now();
+  publisher_.wait_for_acknowledgements(kBreath);
+  patience_ns_ -= std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count();
+}
+
+void FeedEngine::on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
+  engine_.push(sensor, samples);
+}
+void FeedEngine::on_end(std::string_view sensor) noexcept { engine_.end_of_stream(sensor); }
+
+Service::Service(const settings::Settings& settings)
+    : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
+      domain_(settings.bus.domain, settings.bus.network),
+      publisher_(domain_, bus_options(settings.bus)),
+      release_(publisher_, settings.bus.output.history_depth),
+      engine_(live_engine_options(settings), method(settings.denoise), release_),
+      feed_(engine_),
+      subscriber_(domain_, bus_options(settings.bus), feed_) {
+  if (!settings.monitor.enabled) return;
+  try {
+    monitor_.emplace(monitor_options(settings.monitor), view());
+  } catch (const std::runtime_error& error) {
+    throw Unavailable(error.what());
+  }
+}
+
+void Service::start() {
+  if (monitor_) monitor_->start();
+  subscriber_.start();
+  ready_ = true;
+}
+
+bool Service::stop() {
+  ready_ = false;
+  release_.wait_for_readers(kLastWord);
+  engine_.hurry_after(stop_deadline_);  // holds for what the subscriber still hands over, too
+  subscriber_.stop();
+  const bool denoised = engine_.stop(stop_deadline_);
+  publisher_.wait_for_acknowledgements(kLastWord);
+  if (monitor_) monitor_->stop();
+  return denoised;
+}
+
+monitor::View Service::view() {
+  return {.engine = [this] { return engine_.snapshot(); },
+          .channels = [this](std::size_t limit) { return engine_.channels(limit); },
+          .bus = [this] { return bus_snapshot(); },
+          .readiness =
+              [this] {
+                return monitor::Readiness{ready_, "starting or stopping"};
+              }};
+}
+
+monitor::BusSnapshot Service::bus_snapshot() const {
+  return {.matched_writers = subscriber_.matched_writers(),
+          .malformed_messages = subscriber_.malformed_messages(),
+          .refusals = subscriber_.refusals(),
+          .write_errors = publisher_.write_errors()};
+}
+
+}  // namespace gyrod::app

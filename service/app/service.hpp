@@ -1,0 +1,91 @@
+/// The daemon's wiring: subscriber -> engine -> publisher, and the monitor beside them.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "bus/domain.hpp"
+#include "bus/publisher.hpp"
+#include "bus/subscriber.hpp"
+#include "monitor/monitor.hpp"
+#include "settings/settings.hpp"
+#include "stream/engine.hpp"
+
+namespace gyrod::app {
+
+/// What the engine releases goes to DDS. While the daemon runs, this waits for no reader. A stop releases in
+/// one go what took seconds to come in, more than the writers keep for readers that are behind; so it waits
+/// for them, within bounds.
+class ReleaseToBus final : public stream::Sink {
+ public:
+  /// @param depth messages that the writers keep of a sensor
+  ReleaseToBus(bus::Publisher& publisher, std::size_t depth) : publisher_(publisher), depth_(depth) {}
+
+  /// From now on waits for readers, in all no longer than that.
+  void wait_for_readers(std::chrono::milliseconds patience) noexcept {
+    patience_ns_ = std::chrono::nanoseconds(patience).count();
+  }
+
+  void on_samples(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept override;
+  void on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept override;
+  void on_end(std::string_view sensor) noexcept override;
+
+ private:
+  void let_readers_catch_up(std::size_t samples) noexcept;
+
+  bus::Publisher& publisher_;
+  std::size_t depth_;
+  std::atomic<std::int64_t> patience_ns_{0};
+  std::atomic<std::size_t> unconfirmed_{0};  ///< samples since the readers last confirmed all
+};
+
+/// What comes from DDS goes to the engine.
+class FeedEngine final : public bus::SampleHandler {
+ public:
+  explicit FeedEngine(stream::Engine& engine) : engine_(engine) {}
+  void on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept override;
+  void on_end(std::string_view sensor) noexcept override;
+
+ private:
+  stream::Engine& engine_;
+};
+
+/// Owns everything that runs. One thread makes, starts and stops it; snapshot() may be called by any.
+class Service {
+ public:
+  /// Joins the domain and takes the HTTP port; nothing flows yet.
+  /// @throws bus::BusError, Unavailable
+  explicit Service(const settings::Settings& settings);
+
+  void start();
+
+  /// Source first, then what is in flight, then the publisher, then the monitor.
+  /// @return false if what was in flight had to pass through undenoised, because the deadline passed
+  bool stop();
+
+  [[nodiscard]] stream::EngineSnapshot snapshot() const { return engine_.snapshot(); }
+  [[nodiscard]] std::size_t matched_writers() const noexcept { return subscriber_.matched_writers(); }
+  [[nodiscard]] std::size_t workers() const noexcept { return engine_.options().workers; }
+  /// The HTTP port; 0 without a monitor.
+  [[nodiscard]] std::uint16_t monitor_port() const noexcept {
+    return monitor_ ? monitor_->port() : std::uint16_t{0};
+  }
+
+ private:
+  [[nodiscard]] monitor::View view();
+  [[nodiscard]] monitor::BusSnapshot bus_snapshot() const;
+
+  std::chrono::milliseconds stop_deadline_;
+  std::atomic<bool> ready_{false};
+  bus::Domain domain_;
+  bus::Publisher publisher_;
+  ReleaseToBus release_;
+  stream::Engine engine_;
+  FeedEngine feed_;
+  bus::Subscriber subscriber_;
+  std::optional<monitor::Monitor> monitor_;
+};
+
+}  // namespace gyrod::app

@@ -1,0 +1,33 @@
+#include <cstdio>
+
+#include "app/command.hpp"
+#include "app/exit_code.hpp"
+#include "settings/load.hpp"
+
+namespace gyrod::app {
+namespace {
+
+int validate(const std::string& config) {
+  const auto issues = settings::validate(config);
+  if (!issues.empty()) throw settings::SettingsError(config, issues);
+  std::printf("%s is valid\n", config.c_str());
+  return kDone;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& parser, Action& chosen) {
+  CLI::App* command =
+      parser.add_subcommand("validate", "Check a configuration file and report all its errors");
+  const auto config = std::make_shared<std::string>();
+  command->add_option("--config,config", *config, "Configuration file; config/gyrod.json shows every key")
+      ->type_name("FILE")
+      ->required();
+  command->footer(
+      "Every error is reported at once: the key, its value, and what was expected.\n"
+      "Exit code 0 if there is none, else 3.\n\n"
+      "Example:\n  gyrod validate --config /etc/gyrod/gyrod.json");
+  command->callback([&chosen, config] { chosen = [config](Interrupt&) { return validate(*config); }; });
+}
+
+}  // namespace gyrod::app

@@ -1,0 +1,140 @@
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "app/exit_code.hpp"
+#include "rig.hpp"
+
+namespace gyrod::testing {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSlowBuild = true;
+#else
+constexpr bool kSlowBuild = false;
+#endif
+
+const std::vector<std::string> kRates = {"gyro_x_radps", "gyro_y_radps", "gyro_z_radps"};
+
+class LiveEqualsOffline : public Rig {
+ protected:
+  /// Replays the recording under that sensor's name and records what the daemon publishes, every number to
+  /// the last bit.
+  void replay(const std::string& recording, const std::string& sensor, std::size_t batch,
+              const std::string& unit, const std::string& out, int recorded = app::kDone) {
+    const auto recorder = start_recorder(out, {"--sensor", sensor, "--until-end", "--unit", unit});
+    const Result replayed = run_on_bus({"replay", recording, "--sensor", sensor, "--speed", "max", "--batch",
+                                        std::to_string(batch), "--wait", "60"});
+    ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
+    ASSERT_EQ(recorder->wait(), recorded) << recorder->err();
+  }
+};
+
+TEST_F(LiveEqualsOffline, OnASimulatedDriveForAnyNumberOfWorkersAndAnyBatch) {
+  ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", "5000", "-o", path("drive.csv")}).exit_code,
+            0);
+  ASSERT_EQ(run({"denoise", path("drive.csv"), "-o", path("offline.csv")}).exit_code, 0);
+  const auto offline = columns_of(path("offline.csv"), kRates);
+  ASSERT_EQ(offline.size(), 5000U);
+  for (const std::size_t workers : {1U, 2U, 4U}) {
+    const auto daemon = start_daemon({.workers = workers});
+    for (const std::size_t batch : {1U, 7U, 64U}) {
+      const std::string sensor = "batch" + std::to_string(batch);
+      replay(path("drive.csv"), sensor, batch, "radps", sensor + ".csv");
+      EXPECT_EQ(columns_of(path(sensor + ".csv"), kRates), offline)
+          << workers << " workers, batches of " << batch;
+    }
+    EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();
+  }
+}
+
+TEST_F(LiveEqualsOffline, OnARecordingWithEverythingThatIsRefused) {
+  std::string text = noisy_recording(2000);
+  const auto append = [&text](int sequence, std::int64_t stamp_ms, const std::string& rate) {
+    text +=
+        std::to_string(sequence) + "," + std::to_string(stamp_ms * 1'000'000) + "," + rate + ",0.01,0.02\n";
+  };
+  append(2000, 20000, "nan");
+  append(2001, 20010, "inf");
+  append(2002, 20020, "1e300");
+  append(2003, 20030, "0.01");
+  append(2003, 20030, "0.01");  // duplicate
+  append(1990, 19900, "0.01");  // out of order: position 1990 has arrived
+  append(2004, 20020, "0.01");  // time goes back
+  append(2008, 20080, "0.01");  // a gap of 3 and the refused one
+  for (int n = 0; n < 300; ++n)
+    append(13000 + n, 130000 + 10 * n, "0.01");  // a gap of 10 windows, then a constant
+  write_file("bad.csv", text);
+  const Result offline =
+      run({"denoise", path("bad.csv"), "-o", path("offline.csv"), "--summary", path("summary.json")});
+  ASSERT_EQ(offline.exit_code, 0) << offline.err;
+
+  const auto daemon = start_daemon();
+  replay(path("bad.csv"), "imu", 7, "radps", "live.csv", app::kIncomplete);  // what is refused is missing
+  const auto counted = [&](const std::string& reason) {
+    return metric(*daemon, "gyrod_samples_rejected_total{reason=\"" + reason + "\"}").value_or(-1.0);
+  };
+  EXPECT_EQ(counted("not_finite"), 2.0);
+  EXPECT_EQ(counted("out_of_range"), 1.0);
+  EXPECT_EQ(counted("duplicate") + counted("out_of_order"), 2.0);
+  EXPECT_EQ(counted("time_backwards"), 1.0);
+  EXPECT_EQ(metric(*daemon, "gyrod_samples_received_total"), 2308.0);
+  EXPECT_EQ(metric(*daemon, "gyrod_samples_published_total"), 2302.0);
+  EXPECT_EQ(metric(*daemon, "gyrod_samples_in_flight"), 0.0);
+
+  // Offline keeps refused rows where they were: they are the rows that live does not have.
+  auto kept = columns_of(path("offline.csv"), {"sequence", "gyro_x_radps", "gyro_y_radps", "gyro_z_radps"});
+  const auto refused =
+      columns_of(path("bad.csv"), {"sequence", "gyro_x_radps", "gyro_y_radps", "gyro_z_radps"});
+  std::vector<std::size_t> refused_rows = {2000, 2001, 2002, 2004, 2005, 2006};
+  for (std::size_t i = refused_rows.size(); i-- > 0;) {
+    EXPECT_EQ(kept[refused_rows[i]], refused[refused_rows[i]]) << "kept as it was";
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(refused_rows[i]));
+  }
+  EXPECT_EQ(columns_of(path("live.csv"), {"sequence", "gyro_x_radps", "gyro_y_radps", "gyro_z_radps"}), kept);
+  EXPECT_EQ(stop_daemon(*daemon), 0);
+}
+
+/// The first rows of a gzip recording, or nothing where it is not there.
+std::string first_rows(const std::filesystem::path& file, std::size_t rows) {
+  gzFile in = gzopen(file.c_str(), "rb");
+  if (in == nullptr) return {};
+  std::string text;
+  std::array<char, 4096> line{};
+  for (std::size_t n = 0; n <= rows && gzgets(in, line.data(), static_cast<int>(line.size())) != nullptr;
+       ++n) {
+    text += line.data();
+  }
+  gzclose(in);
+  return text;
+}
+
+TEST_F(LiveEqualsOffline, OnTenMinutesOfARealGyro) {
+  const char* variable = std::getenv("GYROD_DATA");
+  const std::filesystem::path data =
+      variable != nullptr ? variable
+                          : std::filesystem::path(std::getenv("GYROD_SOURCE_DIR")) / "../shared/data";
+  const auto file = data / "adis16405_imu1_static_100hz.csv.gz";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real recording: " << file << " (set GYROD_DATA)";
+  write_file("real.csv", first_rows(file, kSlowBuild ? 6000 : 60000));
+  ASSERT_EQ(run({"denoise", path("real.csv"), "-o", path("offline.csv")}).exit_code, 0);
+  const std::vector<std::string> rates = {"gyro_x_dps", "gyro_y_dps", "gyro_z_dps"};
+  const auto offline = columns_of(path("offline.csv"), rates);
+  for (const std::size_t workers : {1U, 2U, 4U}) {
+    const auto daemon = start_daemon({.workers = workers});
+    for (const std::size_t batch : {1U, 7U, 64U}) {
+      const std::string sensor = "batch" + std::to_string(batch);
+      replay(path("real.csv"), sensor, batch, "dps", sensor + ".csv");
+      EXPECT_TRUE(columns_of(path(sensor + ".csv"), rates) == offline)
+          << workers << " workers, batches of " << batch;
+    }
+    EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();
+  }
+}
+
+}  // namespace
+}  // namespace gyrod::testing

@@ -1,0 +1,156 @@
+#include "rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <unistd.h>
+
+#include <httplib.h>
+
+#include "support/samples.hpp"
+
+namespace gyrod::testing {
+namespace {
+
+std::string required_variable(const char* name) {
+  const char* value = std::getenv(name);
+  if (value == nullptr) throw std::runtime_error(std::string(name) + " is not set; ctest sets it");
+  return value;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream text(line);
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+}  // namespace
+
+Rig::Rig()
+    : binary_(required_variable("GYROD_BINARY")),
+      // Domains 20..219; ctest runs one process a test program, and process numbers differ.
+      domain_(20 + static_cast<std::uint32_t>(getpid()) % 200) {
+  std::string name = (std::filesystem::temp_directory_path() / "gyrod-test-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder: " + name);
+  folder_ = name;
+}
+
+Rig::~Rig() { std::filesystem::remove_all(folder_); }
+
+void Rig::write_file(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name), std::ios::binary) << text;
+}
+
+std::string Rig::read_file(const std::string& name) const { return read_text(path(name)); }
+
+std::unique_ptr<Process> Rig::start(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{binary_};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return std::make_unique<Process>(command, folder_, "process" + std::to_string(++started_));
+}
+
+std::unique_ptr<Process> Rig::start_on_bus(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--config", config()});
+  return start(arguments);
+}
+
+Rig::Result Rig::run(const std::vector<std::string>& arguments) {
+  const auto process = start(arguments);
+  const int exit_code = process->wait();
+  return {exit_code, process->out(), process->err()};
+}
+
+Rig::Result Rig::run_on_bus(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--config", config()});
+  return run(arguments);
+}
+
+std::unique_ptr<Process> Rig::start_daemon(const DaemonOptions& options) {
+  std::ostringstream text;
+  text << R"({"bus": {"domain": )" << domain_ << R"(}, "denoise": {"window_samples": )"
+       << options.window_samples << R"(}, "limits": {"max_delay_s": 3600, "max_channels": )"
+       << options.max_channels << R"(}, "workers": )" << options.workers
+       << R"(, "monitor": {"port": 0}, "stop": {"deadline_s": )" << options.stop_deadline_s << "}}";
+  write_file("gyrod.json", text.str());
+  auto daemon = start({"run", "--config", config()});
+  if (!daemon->wait_for_err("/metrics"))
+    throw std::runtime_error("the daemon did not start: " + daemon->err());
+  return daemon;
+}
+
+std::unique_ptr<Process> Rig::start_recorder(const std::string& out,
+                                             const std::vector<std::string>& arguments) {
+  std::vector<std::string> all = {"record", "--topic", "gyro/denoised", "-o", path(out)};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  auto recorder = start_on_bus(all);
+  if (!recorder->wait_for_err("listening"))
+    throw std::runtime_error("the recorder does not listen: " + recorder->err());
+  return recorder;
+}
+
+int Rig::stop_daemon(Process& daemon) {
+  daemon.signal(SIGTERM);
+  return daemon.wait();
+}
+
+std::string Rig::get(const Process& daemon, const std::string& target) const {
+  const std::string log = daemon.err();
+  std::smatch match;
+  if (!std::regex_search(log, match, std::regex("http://([0-9.]+):([0-9]+)/metrics"))) return {};
+  httplib::Client client(match[1].str(), std::stoi(match[2].str()));
+  const auto response = client.Get(target.c_str());
+  return response ? response->body : std::string{};
+}
+
+std::optional<double> Rig::metric(const Process& daemon, const std::string& series) const {
+  std::stringstream text(get(daemon, "/metrics"));
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with(series + " ")) return std::stod(line.substr(series.size() + 1));
+  }
+  return std::nullopt;
+}
+
+std::string read_text(const std::string& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> columns_of(const std::string& file, const std::vector<std::string>& names) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = cells_of(line);
+  std::vector<std::size_t> columns;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(header, name);
+    if (found == header.end()) throw std::runtime_error(file + " has no column " + name);
+    columns.push_back(static_cast<std::size_t>(found - header.begin()));
+  }
+  std::vector<std::string> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    std::string row;
+    for (const std::size_t column : columns) row += (row.empty() ? "" : ",") + cells.at(column);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string noisy_recording(std::uint64_t samples) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "sequence,stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps\n";
+  for (const stream::Sample& sample : noisy_samples(samples)) {
+    text << sample.sequence << ',' << sample.stamp_ns << ',' << sample.rate_radps[0] << ','
+         << sample.rate_radps[1] << ',' << sample.rate_radps[2] << '\n';
+  }
+  return text.str();
+}
+
+}  // namespace gyrod::testing

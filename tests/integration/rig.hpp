@@ -1,0 +1,83 @@
+/// What the integration tests share: the binary, a folder and a DDS domain of their own, recordings, metrics.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/process.hpp"
+
+namespace gyrod::testing {
+
+/// Runs subcommands of the binary that the environment names in GYROD_BINARY. Every test has a scratch
+/// folder, removed at its end, and a DDS domain that no other process of the same test run uses.
+class Rig : public ::testing::Test {
+ protected:
+  Rig();
+  ~Rig() override;
+
+  /// Path of a file in the scratch folder.
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write_file(const std::string& name, const std::string& text) const;
+  [[nodiscard]] std::string read_file(const std::string& name) const;
+
+  /// Starts `gyrod ARGUMENTS...`.
+  [[nodiscard]] std::unique_ptr<Process> start(const std::vector<std::string>& arguments);
+  /// The same with --config of this test's daemon, for subcommands on the bus.
+  [[nodiscard]] std::unique_ptr<Process> start_on_bus(std::vector<std::string> arguments);
+  struct Result {
+    int exit_code = -1;
+    std::string out;
+    std::string err;
+  };
+  Result run(const std::vector<std::string>& arguments);
+  Result run_on_bus(std::vector<std::string> arguments);
+
+  /// What a test wants to be different in its daemon.
+  struct DaemonOptions {
+    std::size_t workers = 2;
+    double stop_deadline_s = 120.0;  ///< a sanitizer's build may take its time
+    std::size_t max_channels = 64;
+    std::size_t window_samples = 1024;
+  };
+  /// Writes the configuration and starts the daemon; waits until it serves. Overload is out of reach, so that
+  /// results do not depend on the machine.
+  std::unique_ptr<Process> start_daemon(const DaemonOptions& options);
+  std::unique_ptr<Process> start_daemon() { return start_daemon(DaemonOptions{}); }
+  /// Starts `gyrod record` of the denoised samples and waits until it listens to the daemon.
+  std::unique_ptr<Process> start_recorder(const std::string& out, const std::vector<std::string>& arguments);
+  /// SIGTERM, and the exit code.
+  int stop_daemon(Process& daemon);
+
+  /// One metric of the daemon, e.g. `gyrod_samples_rejected_total{reason="duplicate"}`; nothing if it is not
+  /// there.
+  [[nodiscard]] std::optional<double> metric(const Process& daemon, const std::string& series) const;
+  /// Body of a GET on the daemon's port; empty if that fails.
+  [[nodiscard]] std::string get(const Process& daemon, const std::string& target) const;
+
+  [[nodiscard]] std::uint32_t domain_id() const noexcept { return domain_; }
+  [[nodiscard]] std::string config() const { return path("gyrod.json"); }
+
+ private:
+  std::filesystem::path folder_;
+  std::string binary_;
+  std::uint32_t domain_;
+  int started_ = 0;
+};
+
+/// A whole file.
+[[nodiscard]] std::string read_text(const std::string& file);
+
+/// Columns of a CSV file by name, as text, row by row: "a,b" for two of them. @pre the columns exist
+[[nodiscard]] std::vector<std::string> columns_of(const std::string& file,
+                                                  const std::vector<std::string>& names);
+
+/// A recording with sample, stamp_ns and rates in rad/s: slow motion with noise from a fixed generator.
+[[nodiscard]] std::string noisy_recording(std::uint64_t samples);
+
+}  // namespace gyrod::testing

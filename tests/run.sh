@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Installs what is needed, builds, and runs every test. Needs nothing but a Debian 12 and this clone.
+#
+#   bash tests/run.sh                 all stages, as the continuous integration does
+#   bash tests/run.sh release asan    only these stages
+#
+# Stages: format tidy release asan tsan demo. Real recordings are looked for in GYROD_DATA (default ../shared/data); tests that
+# want one say so and skip where it is absent.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+stages=("$@")
+if [ ${#stages[@]} -eq 0 ]; then stages=(format release asan tsan demo tidy); fi
+jobs=$(nproc)
+
+export GYROD_DATA="${GYROD_DATA:-$PWD/../shared/data}"
+export ASAN_OPTIONS="detect_leaks=1:strict_string_checks=1"
+export UBSAN_OPTIONS="print_stacktrace=1"
+export TSAN_OPTIONS="suppressions=$PWD/tests/support/tsan.supp:halt_on_error=1"
+
+our_sources() { git ls-files --cached --others --exclude-standard '*.cpp' '*.hpp'; }
+
+stage_format() { our_sources | xargs clang-format --dry-run --Werror; }
+
+stage_tidy() {
+  cmake --preset release >/dev/null
+  cmake --build --preset release --target gyrod >/dev/null
+  our_sources | grep '^service/.*\.cpp$' | xargs -P "$jobs" -n 4 clang-tidy --quiet -p build/release 2>/dev/null
+}
+
+build_and_test() {
+  cmake --preset "$1"
+  cmake --build --preset "$1" -j "$jobs"
+  ctest --preset "$1" -j "$jobs" --no-tests=error
+}
+stage_release() { build_and_test release; }
+stage_asan() { build_and_test asan; }
+stage_tsan() { build_and_test tsan; }
+
+stage_demo() { bash deploy/demo.sh --seconds 8; }
+
+bash deploy/install-packages.sh
+for stage in "${stages[@]}"; do
+  echo "== $stage"
+  begin=$SECONDS
+  "stage_$stage"
+  echo "== $stage passed in $((SECONDS - begin)) s"
+done
+echo "all stages passed: ${stages[*]}"
