@@ -139,9 +139,7 @@ TEST_F(CommandLine, TheReferenceConfigurationIsValid) {
 
 TEST_F(CommandLine, ABusyPortIsNamed) {
   const auto daemon = start_daemon();
-  const std::string log = daemon->err();
-  const std::size_t colon = log.rfind(':', log.find("/metrics"));
-  const std::string port = log.substr(colon + 1, log.find("/metrics") - colon - 1);
+  const std::string port = std::to_string(port_of(*daemon));
   write_file("busy.json", R"({"monitor": {"port": )" + port + "}}");
   const Result result = run({"run", "--config", path("busy.json")});
   EXPECT_EQ(result.exit_code, ExitCode::kUnavailable);

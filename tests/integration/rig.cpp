@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <unistd.h>
 
@@ -98,16 +97,21 @@ int Rig::stop_daemon(Process& daemon) {
   return daemon.wait();
 }
 
-std::string Rig::get(const Process& daemon, const std::string& target) const {
+int Rig::port_of(const Process& daemon) {
   const std::string log = daemon.err();
-  std::smatch match;
-  if (!std::regex_search(log, match, std::regex("http://([0-9.]+):([0-9]+)/metrics"))) return {};
-  httplib::Client client(match[1].str(), std::stoi(match[2].str()));
+  const std::size_t end = log.find("/metrics");
+  const std::size_t colon = log.rfind(':', end);
+  if (end == std::string::npos || colon == std::string::npos) throw std::runtime_error("no port in: " + log);
+  return std::stoi(log.substr(colon + 1, end - colon - 1));
+}
+
+std::string Rig::get(const Process& daemon, const std::string& target) {
+  httplib::Client client("127.0.0.1", port_of(daemon));
   const auto response = client.Get(target.c_str());
   return response ? response->body : std::string{};
 }
 
-std::optional<double> Rig::metric(const Process& daemon, const std::string& series) const {
+std::optional<double> Rig::metric(const Process& daemon, const std::string& series) {
   std::stringstream text(get(daemon, "/metrics"));
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with(series + " ")) return std::stod(line.substr(series.size() + 1));

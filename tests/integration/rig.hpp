@@ -56,9 +56,11 @@ class Rig : public ::testing::Test {
 
   /// One metric of the daemon, e.g. `gyrod_samples_rejected_total{reason="duplicate"}`; nothing if it is not
   /// there.
-  [[nodiscard]] std::optional<double> metric(const Process& daemon, const std::string& series) const;
+  [[nodiscard]] static std::optional<double> metric(const Process& daemon, const std::string& series);
   /// Body of a GET on the daemon's port; empty if that fails.
-  [[nodiscard]] std::string get(const Process& daemon, const std::string& target) const;
+  [[nodiscard]] static std::string get(const Process& daemon, const std::string& target);
+  /// Its HTTP port, from its log.
+  [[nodiscard]] static int port_of(const Process& daemon);
 
   [[nodiscard]] std::uint32_t domain_id() const noexcept { return domain_; }
   [[nodiscard]] std::string config() const { return path("gyrod.json"); }

@@ -22,6 +22,7 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void signal(int number) const;
+  [[nodiscard]] pid_t id() const noexcept { return pid_; }
 
   /// Waits for its end. @return exit code, 128 + signal where one ended it, -1 where it still runs after the
   /// timeout
