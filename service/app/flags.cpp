@@ -1,5 +1,7 @@
 #include "app/flags.hpp"
 
+#include <sstream>
+
 #include "settings/load.hpp"
 
 namespace gyrod::app {
@@ -21,7 +23,7 @@ void BusFlags::add_to(CLI::App& command) {
       ->type_name("FILE");
   command.add_option("--domain", domain, "DDS domain, 0 to 230 [as configured, else 0]")
       ->type_name("N")
-      ->check(CLI::Range(0, 230));
+      ->check(in_range(0, 230));
   command
       .add_option("--network", network,
                   "loopback: this machine only; default: as CYCLONEDDS_URI says or Cyclone DDS finds it;\n"
@@ -41,7 +43,7 @@ void RecordingFlags::add_to(CLI::App& command) {
       .add_option("--rate", options.nominal_rate_hz,
                   "Sample rate in Hz where the file has no time column [100]")
       ->type_name("HZ")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(in_range(1e-3, 1e6));
   command.add_flag("--allow-missing-axes", options.allow_missing_axes,
                    "Take a file without one or two of the axes; they count as 0");
   command.add_flag("--skip-broken-rows", options.skip_broken_rows,
@@ -55,6 +57,23 @@ void SpeedFlag::add_to(CLI::App& command) {
           "Times real time, e.g. 10; max: as fast as readers take them [1]")
       ->type_name("X|max")
       ->check(check_speed);
+}
+
+CLI::Validator in_range(double least, double most) {
+  const auto check = [least, most](const std::string& text) {
+    double value = 0.0;
+    if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string{};
+    std::ostringstream complaint;
+    complaint << "'" << text << "' given; expected a number from " << least << " to " << most;
+    return complaint.str();
+  };
+  return {check, ""};
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  CLI::IsMember member(words);
+  member.description("");
+  return member;
 }
 
 settings::Settings load_or_default(const std::string& config) {

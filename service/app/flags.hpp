@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -38,6 +39,11 @@ struct SpeedFlag {
 
   void add_to(CLI::App& command);
 };
+
+/// Checks of option values. Unlike CLI11's own, they do not add their limits to the option's line in the
+/// help, where the text says what is meant.
+[[nodiscard]] CLI::Validator in_range(double least, double most);
+[[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
 
 /// Settings of a configuration file, or the defaults where none is named. @throws settings::SettingsError
 [[nodiscard]] settings::Settings load_or_default(const std::string& config);

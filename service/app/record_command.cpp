@@ -151,7 +151,7 @@ void add_options(CLI::App& command, RecordFlags& flags) {
   command.add_option("--sensor", flags.sensor, "Only this sensor [all]")->type_name("NAME");
   command.add_option("--seconds", flags.seconds, "End after this time")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(in_range(0.0, 1e9));
   command.add_option("--samples", flags.samples, "End after so many samples, all sensors together")
       ->type_name("N");
   command.add_flag("--until-end", flags.until_end, "End when every sensor that sent has ended");
@@ -160,12 +160,12 @@ void add_options(CLI::App& command, RecordFlags& flags) {
           "--unit", [&flags](const std::string& unit) { flags.unit = *files::rate_unit_of(unit); },
           "Unit of the file: radps (all bits), mradps, dps, mdps, dph [radps]")
       ->type_name("UNIT")
-      ->check(CLI::IsMember({"radps", "mradps", "dps", "mdps", "dph"}));
+      ->check(one_of({"radps", "mradps", "dps", "mdps", "dph"}));
   command
       .add_option("--wait", flags.wait_s,
                   "Seconds to wait for a writer of a topic that is not in the configuration [10]")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 86400.0));
+      ->check(in_range(0.0, 86400.0));
 }
 
 }  // namespace

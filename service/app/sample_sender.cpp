@@ -23,10 +23,10 @@ std::size_t chunk_of(const SendFlags& flags) {
 void SendFlags::add_to(CLI::App& command) {
   command.add_option("--batch", batch, "Samples a message; above 1 on the topic of batches [1]")
       ->type_name("N")
-      ->check(CLI::Range(1, 65536));
+      ->check(in_range(1, 65536));
   command.add_option("--wait", wait_s, "Seconds to wait for a reader before giving up [10]")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 86400.0));
+      ->check(in_range(0.0, 86400.0));
   speed.add_to(command);
 }
 

@@ -56,7 +56,7 @@ void ErrorFlags::add_to(CLI::App& command) {
   const auto add = [&command](const char* name, double& value, const char* unit, const std::string& what) {
     command.add_option(name, value, what)
         ->type_name(unit)
-        ->check(CLI::Range(0.0, kMost))
+        ->check(in_range(0.0, kMost))
         ->group("Sensor errors");
   };
   add("--angle-random-walk", angle_random_walk_deg_per_sqrt_h, "DEG/SQRT(H)", "White noise [2.1]");
@@ -145,15 +145,15 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
           "--motion", [&flags](const std::string& motion) { flags.drive = motion == "drive"; },
           "still, or drive: a car with turns, stops and vibration [still]")
       ->type_name("still|drive")
-      ->check(CLI::IsMember({"still", "drive"}));
+      ->check(one_of({"still", "drive"}));
   command.add_option("--seed", flags.seed, "Same seed and options: same samples on any machine [1]")
       ->type_name("N");
   command.add_option("--rate", flags.rate_hz, "Sample rate [100]")
       ->type_name("HZ")
-      ->check(CLI::Range(1.0, 1e5));
+      ->check(in_range(1.0, 1e5));
   command.add_option("--seconds", flags.seconds, "Length [a file: 60; DDS: until Ctrl-C]")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(in_range(0.0, 1e9));
   command.add_option("--samples", flags.samples, "Length in samples")->type_name("N")->excludes("--seconds");
   command.add_option("--sensor", flags.send.sensor, "Id of the sensor, 1 to 64 characters [sim]")
       ->type_name("NAME");
@@ -166,10 +166,10 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
           "--unit", [&flags](const std::string& unit) { flags.unit = *files::rate_unit_of(unit); },
           "Unit of the file: radps, mradps, dps, mdps, dph [radps]")
       ->type_name("UNIT")
-      ->check(CLI::IsMember({"radps", "mradps", "dps", "mdps", "dph"}));
+      ->check(one_of({"radps", "mradps", "dps", "mdps", "dph"}));
   command.add_option("--engine-tone", flags.engine_tone_dps, "Amplitude of an engine tone while driving [0]")
       ->type_name("DEG/S")
-      ->check(CLI::Range(0.0, 1e3));
+      ->check(in_range(0.0, 1e3));
   command.add_option("--engine-tone-hz", flags.engine_tone_hz, "Its frequency [27]")->type_name("HZ");
 }
 

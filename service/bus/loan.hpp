@@ -46,8 +46,8 @@ class Loan {
   dds_entity_t reader_;
   std::size_t size_ = 0;
   std::array<void*, kMaxLoan> messages_{};  // the first null pointer asks for a loan
-  std::array<dds_sample_info_t, kMaxLoan>
-      infos_;  // filled by the take; left as it is to save 20 kB of zeros a take
+  // Filled by the take; not set before, to save 20 kB of zeros a take.
+  std::array<dds_sample_info_t, kMaxLoan> infos_;  // NOLINT(cppcoreguidelines-pro-type-member-init)
 };
 
 }  // namespace gyrod::bus

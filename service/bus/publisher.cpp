@@ -70,7 +70,7 @@ class Publisher::Impl {
     count(reports_.end(sensor));
   }
 
-  bool wait_for_acknowledgements(std::chrono::milliseconds timeout) const noexcept {
+  [[nodiscard]] bool wait_for_acknowledgements(std::chrono::milliseconds timeout) const noexcept {
     const dds_time_t deadline = dds_time() + DDS_MSECS(timeout.count());
     const auto confirmed = [deadline](dds_entity_t writer) {
       return dds_wait_for_acks(writer, std::max<dds_duration_t>(0, deadline - dds_time())) == DDS_RETCODE_OK;

@@ -92,7 +92,7 @@ std::optional<std::uint64_t> round_to_whole(const Decimal& number) noexcept {
 
 template <class Number>
 void append_text_of(std::string& text, Number value) {
-  std::array<char, 32> buffer;  // the longest double takes 24
+  std::array<char, 32> buffer{};  // the longest double takes 24
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   text.append(buffer.data(), end);
 }

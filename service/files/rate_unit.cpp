@@ -9,7 +9,7 @@ namespace gyrod::files {
 namespace {
 
 struct UnitNames {
-  RateUnit unit;
+  RateUnit unit = RateUnit::kRadps;
   std::array<std::string_view, 4> spellings;  // the first is the one gyrod writes
 };
 

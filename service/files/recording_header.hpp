@@ -1,10 +1,9 @@
 /// The header line of a recording: which column is which, in what unit.
 ///
-///     gyro_x_UNIT, gyro_y_UNIT, gyro_z_UNIT           angular rate; UNIT as in rate_unit.hpp, one unit for
-///     all three stamp_T | timestamp_T | time_T, T = ns us ms s  time of measurement; where there are
-///     several, the finest sequence | sample                               number of the sample, counting up
-///     by one anything else                                   passes through (device_ms, temperature, truth,
-///     ...)
+///     gyro_x_UNIT, gyro_y_UNIT, gyro_z_UNIT   angular rate; UNIT as in rate_unit.hpp, one for all three
+///     stamp_T | timestamp_T | time_T          time of measurement, T = ns us ms s; of several the finest
+///     sequence | sample                       number of the sample, counting up by one
+///     anything else                           passes through (device_ms, temperature, truth, ...)
 ///
 /// Case and blanks around a name do not matter, names may be quoted. Columns are separated by commas,
 /// semicolons or tabs, whichever the header holds most of.

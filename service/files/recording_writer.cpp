@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "files/csv_row.hpp"
 #include "files/number_text.hpp"
@@ -9,8 +10,8 @@
 
 namespace gyrod::files {
 
-RecordingWriter::RecordingWriter(const std::string& path, const RecordingHeader& header)
-    : file_(path), header_(header) {
+RecordingWriter::RecordingWriter(const std::string& path, RecordingHeader header)
+    : file_(path), header_(std::move(header)) {
   file_.write(header_.text + "\n");
 }
 

@@ -23,7 +23,7 @@ namespace gyrod::files {
 class RecordingWriter {
  public:
   /// @throws FileError as OutputFile does
-  RecordingWriter(const std::string& path, const RecordingHeader& header);
+  RecordingWriter(const std::string& path, RecordingHeader header);
 
   /// @param row_text the row as read (RecordingRow::text), with the header's number of cells
   /// @param rate_radps x, y, z; an axis the header does not have is left out

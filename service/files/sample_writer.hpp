@@ -49,7 +49,7 @@ class SampleWriter {
   void end_row();
 
   OutputFile file_;
-  RowKind kind_;
+  [[maybe_unused]] RowKind kind_;  ///< for the assertions
   RateUnit unit_;
   std::string line_;
   std::uint64_t rows_ = 0;

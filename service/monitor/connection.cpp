@@ -11,7 +11,7 @@ namespace gyrod::monitor {
 namespace {
 
 /// A request of ours is one line and a few headers; a browser's is below 4 KiB.
-constexpr std::size_t kMaxRequestBytes = 16U * 1024U;
+constexpr std::size_t kMaxRequestBytes = std::size_t{16} * 1024;
 /// From accepting to the last byte of the request: clients that send nothing must not keep the threads from
 /// others.
 constexpr std::chrono::seconds kRequestTime{2};
@@ -31,7 +31,7 @@ Connection::~Connection() {
   // Bytes left unread would make close() send a reset, and the client might lose the answer: take those that
   // are here.
   shutdown(socket_.descriptor(), SHUT_WR);
-  std::array<char, kMaxRequestBytes> unread;
+  std::array<char, kMaxRequestBytes> unread{};
   (void)recv(socket_.descriptor(), unread.data(), unread.size(), MSG_DONTWAIT);
 }
 

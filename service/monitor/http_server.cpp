@@ -78,7 +78,7 @@ void HttpServer::respond(const httplib::Request& request, httplib::Response& res
     answer = {.status = 500, .body = std::string("internal error: ") + error.what() + "\n"};
   }
   response.status = answer.status;
-  response.set_content(std::move(answer.body), answer.content_type);
+  response.set_content(answer.body, answer.content_type);
 }
 
 }  // namespace gyrod::monitor

@@ -72,7 +72,7 @@ class Monitor::Impl {
   HttpServer server_;  // last: its threads use the others
 };
 
-Monitor::Monitor(MonitorOptions options, View view)
+Monitor::Monitor(const MonitorOptions& options, View view)
     : impl_(std::make_unique<Impl>(options, std::move(view))) {}
 Monitor::~Monitor() = default;
 void Monitor::start() { impl_->start(); }

@@ -34,7 +34,7 @@ class Monitor {
  public:
   /// Takes the port; clients wait from then on, and are answered after start().
   /// @throws std::runtime_error naming address, port and reason, e.g. "port 9464 on 127.0.0.1 is in use"
-  Monitor(MonitorOptions options, View view);
+  Monitor(const MonitorOptions& options, View view);
   /// Stops.
   ~Monitor();
   Monitor(const Monitor&) = delete;

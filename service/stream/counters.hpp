@@ -23,7 +23,7 @@ enum class RejectReason : std::uint8_t {
   kDuplicate,        ///< a sequence number that was seen already
   kOutOfOrder,       ///< older than the newest accepted sample
   kTimeBackwards,    ///< newer sequence number but the stamp does not advance
-  kTooManyChannels,  ///< a new sensor id beyond the channel limit
+  kTooManyChannels,  ///< a new sensor id beyond the channel limit, or beyond the memory there is
   kBadSensorId,      ///< empty, too long, or not printable
   kShuttingDown,     ///< arrived after the stop began
 };

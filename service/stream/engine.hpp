@@ -18,9 +18,9 @@
 
 namespace gyrod::stream {
 
-/// Where released samples go. Called by the thread that finished the work (a worker, or the caller of Engine
-/// in its inline mode), for one sensor by one thread at a time and in sequence order. Must not call back into
-/// the engine.
+/// Where released samples go. Samples of one sensor come by one thread at a time and in sequence order: the thread that finished
+/// the work (a worker, or the caller of Engine). A report comes from the worker that made it; with a model method that can be
+/// while the caller of Engine hands over samples of the same sensor. Must not call back into the engine.
 class Sink {
  public:
   virtual ~Sink() = default;

@@ -20,7 +20,8 @@
 
 namespace gyrod::stream {
 
-/// Lock order: registry, then channel, then scheduler or idle; none is held while the sink or a method runs.
+/// Lock order: registry, then channel, then scheduler or idle. In push() and in the workers none is held while the sink or a
+/// method runs; stop() walks over the channels under the registry's shared lock.
 class Engine::Impl {
  public:
   Impl(EngineOptions options, MethodFactory method, Sink& sink, Clock clock);

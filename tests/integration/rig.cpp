@@ -71,10 +71,12 @@ Rig::Result Rig::run_on_bus(std::vector<std::string> arguments) {
 
 std::unique_ptr<Process> Rig::start_daemon(const DaemonOptions& options) {
   std::ostringstream text;
-  text << R"({"bus": {"domain": )" << domain_ << R"(}, "denoise": {"window_samples": )"
-       << options.window_samples << R"(}, "limits": {"max_delay_s": 3600, "max_channels": )"
-       << options.max_channels << R"(}, "workers": )" << options.workers
-       << R"(, "monitor": {"port": 0}, "stop": {"deadline_s": )" << options.stop_deadline_s << "}}";
+  text << R"({"bus": {"domain": )" << domain_ << R"(, "input": {"max_messages": )" << options.max_messages
+       << "}},"
+       << R"("denoise": {"window_samples": )" << options.window_samples << "},"
+       << R"("limits": {"max_delay_s": 3600, "max_channels": )" << options.max_channels << "},"
+       << R"("workers": )" << options.workers << R"(, "monitor": {"port": 0},)"
+       << R"("stop": {"deadline_s": )" << options.stop_deadline_s << "}}";
   write_file("gyrod.json", text.str());
   auto daemon = start({"run", "--config", config()});
   if (!daemon->wait_for_err("/metrics"))

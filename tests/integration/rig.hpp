@@ -44,6 +44,7 @@ class Rig : public ::testing::Test {
     double stop_deadline_s = 120.0;  ///< a sanitizer's build may take its time
     std::size_t max_channels = 64;
     std::size_t window_samples = 1024;
+    std::size_t max_messages = 4096;  ///< that DDS holds for the daemon
   };
   /// Writes the configuration and starts the daemon; waits until it serves. Overload is out of reach, so that
   /// results do not depend on the machine.

@@ -6,8 +6,8 @@
 namespace gyrod::core {
 namespace {
 
-// Means over 20 000 windows of N = 1024 samples of white noise (standard error 0.5 % or less, IMF 9: 1 %).
-// Made by
+// Means over 20 000 windows of N = 1024 samples of white noise (standard error 0.5 % or less, IMF 9: 1 %),
+// made by
 //   emd_noise_line 20000
 // (tests/benchmark/emd_noise_line.cpp), which prints other sizes too: from N = 512 to 4096, IMF 1..5 stay
 // within 1.3 % of these values, and IMF 6..9 within 8 % where most windows have the IMF.

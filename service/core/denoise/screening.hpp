@@ -13,9 +13,9 @@ enum class ScreeningRule : std::uint8_t {
   /// [Yang2019] steps 2 and 3 to the letter: |PCC| with the raw record, ACF variance against 0.001. For long
   /// still records.
   kPaper,
-  /// The same two tests restated for windows and moving sensors (method.md B): the ACF variance is made
-  /// independent of N,
-  /// k comes first, and the PCC is taken against the sum of IMF 1..k, so that motion does not hide the noise.
+  /// The same two tests restated for windows and moving sensors (docs/method.md, Screen): the ACF variance is
+  /// made independent of N, k comes first, and the PCC is taken against the sum of IMF 1..k, so that motion
+  /// does not hide the noise.
   kWindowed,
 };
 
@@ -28,8 +28,8 @@ struct ScreeningOptions {
   /// Windowed rule: c_i above this is signal; of 3700 noise IMFs at N = 1024 none exceeded 1.02. Range
   /// 0.5..100.
   double acf_concentration = 1.2;
-  /// Windowed rule: a mean period above this is signal, samples; what 0.001 means at N = 360 000 (method.md
-  /// B). 2..1e6.
+  /// Windowed rule: a mean period above this is signal, samples; what 0.001 means at N = 360 000
+  /// (docs/method.md, Screen). 2..1e6.
   double max_noise_period_samples = 800.0;
   /// Windowed rule: an IMF whose energy exceeds the noise line by this factor is not pure noise, whatever its
   /// PCC. 1..1000.

@@ -9,13 +9,13 @@ namespace {
 
 /// A knot as seen from an end of the signal.
 struct Knot {
-  std::int32_t inward2;  ///< twice its distance from the end sample, positive inside the signal
-  double value;
+  std::int32_t inward2 = 0;  ///< twice its distance from the end sample, positive inside the signal
+  double value = 0.0;
 };
 
 /// Knots to be added at one end, nearest first.
 struct AddedKnots {
-  std::array<Knot, Extrema::kMaxAdded> knot;
+  std::array<Knot, Extrema::kMaxAdded> knot{};
   std::size_t count = 0;
 
   void add(Knot next) noexcept { knot[count++] = next; }

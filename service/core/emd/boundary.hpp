@@ -14,13 +14,11 @@ struct SegmentRange {
 /// Adds knots beyond both ends of ws.extrema, so that both envelopes cover every sample. Kinds go on
 /// alternating.
 ///
-/// - kMirror [Rilling2003]: four extrema reflected about the first one; about the end sample, then taken as
-/// an
-///   extremum itself, where that sample lies beyond the second extremum or where the reflected ones would not
-///   reach it.
-/// - kLinear [Wu2009]: one knot of each kind at the end sample, on the line through the two nearest extrema
-/// of
-///   the kind, but never inside the signal's end value.
+/// - kMirror [Rilling2003]: four extrema reflected about the first one; about the end sample, then taken
+///   as an extremum itself, where that sample lies beyond the second extremum or where the reflected ones
+///   would not reach it.
+/// - kLinear [Wu2009]: one knot of each kind at the end sample, on the line through the two nearest
+///   extrema of the kind, but never inside the signal's end value.
 ///
 /// @pre ws.extrema.count() >= 3
 SegmentRange add_boundary_knots(SiftWorkspace& ws) noexcept;

@@ -32,7 +32,7 @@ enum class EmdKernel {
 [[nodiscard]] bool is_available(EmdKernel kernel) noexcept;
 
 struct EmdOptions {
-  /// Sifts per IMF. Unit: count, range 1..100. Source: method.md C.2 (its noise line holds for 10).
+  /// Sifts per IMF. Unit: count, range 1..100. Source: the noise line (core/denoise/noise_line.hpp) holds for 10.
   int sifts = 10;
   /// IMFs at the most. Unit: count, range 1..32.
   int max_imfs = 24;

@@ -7,8 +7,7 @@
 
 namespace gyrod::core {
 
-/// Normalised autocorrelation function (ACF) of a sequence of N samples, [Yang2019] eq. (3), the biased
-/// estimate
+/// Normalised autocorrelation function (ACF) of a sequence of N samples, the biased estimate, [Yang2019] eq. (3):
 ///   rho_l = sum_{n} z_n z_{n+l} / sum_n z_n^2,   z = x - mean(x),   l = 0..N-1,   rho_0 = 1.
 /// Zero-padded to a power of two of at least 2N, so that nothing wraps around.
 /// Sizes its workspace once; no call allocates after that. Not thread-safe; one object per worker.

@@ -5,8 +5,7 @@
 
 namespace gyrod::core {
 
-/// Value at position `step` of `count` missing samples between two known ones, on the straight line between
-/// them:
+/// Value at position `step` of `count` missing samples between two known ones, on the line between them:
 ///   left + (right - left) (step + 1) / (count + 1),   step = 0..count-1.
 /// A line, not a spline: it invents no extrema, so the EMD sees no oscillation that was not measured.
 /// Finite for finite ends. Pure; allocates nothing.

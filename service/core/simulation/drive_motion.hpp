@@ -23,9 +23,10 @@ struct DriveOptions {
 
 /// Car axes: x forward, y left, z up. The drive is a chain of manoeuvres drawn from a seeded generator:
 ///   straight  3 to 12 s;
-///   turn      yaw rate up to 5..30 deg/s either way, rising and falling over 1.5..3 s, held 1..4 s; the body
-///   rolls with it; stop      nose dips 0.5..1.5 deg while braking over 2..4 s, stands 3..12 s, squats on
-///   leaving; no road vibration at rest.
+///   turn      yaw rate up to 5..30 deg/s either way, rising and falling over 1.5..3 s, held 1..4 s; the
+///             body rolls with it;
+///   stop      nose dips 0.5..1.5 deg while braking over 2..4 s, stands 3..12 s, squats on leaving; no road
+///             vibration at rest.
 /// Each profile is the quintic step 6u^5 - 15u^4 + 10u^3 up and down, so the rates have two continuous
 /// derivatives; pitch and roll come back to where they were. Small angles: rates add, axes do not turn with
 /// the body. Deterministic in (options, sample rate, seed); allocates nothing.

@@ -54,7 +54,7 @@ std::uint64_t child_seed(std::uint64_t seed, std::size_t index) noexcept {
 }
 
 GyroErrors errors_of(const SimulatedGyroOptions& options, std::size_t axis) noexcept {
-  return GyroErrors(options.errors[axis], options.sample_rate_hz, child_seed(options.seed, 1 + axis));
+  return {options.errors[axis], options.sample_rate_hz, child_seed(options.seed, 1 + axis)};
 }
 
 }  // namespace
