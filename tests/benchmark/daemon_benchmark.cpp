@@ -8,6 +8,7 @@
 /// which the sample that completed its hop was sent, to the moment at which the denoised sample is in a
 /// subscriber's hands.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -90,6 +91,10 @@ std::vector<stream::Sample> drive(std::uint64_t seed, std::size_t count) {
   return samples;
 }
 
+std::string sensor_name(char kind, std::size_t number) {
+  return std::string(1, kind).append(std::to_string(number));
+}
+
 /// As fast as the daemon takes them, from so many sensors in turn. @return samples/s
 double throughput(const bus::Domain& domain, std::size_t batch, std::size_t sensors, std::size_t samples) {
   const bus::BusOptions options;
@@ -100,8 +105,8 @@ double throughput(const bus::Domain& domain, std::size_t batch, std::size_t sens
   Arrivals arrivals;
   const Clock::time_point begin = Clock::now();
   std::thread sensor([&] {
-    const auto name = [batch](std::size_t s) {
-      return "b" + std::to_string(batch) + "s" + std::to_string(s);
+    const auto name = [batch, sensors](std::size_t s) {
+      return sensor_name('b', 1000 * batch + 100 * sensors + s);
     };
     constexpr std::size_t kChunk = 256;
     for (std::size_t n = 0; n < samples; n += kChunk) {
@@ -130,10 +135,14 @@ void real_time(const bus::Domain& domain, pid_t daemon, std::size_t sensors, std
   const auto samples = seconds * static_cast<std::size_t>(kRateHz);
   const auto input = drive(2, samples);
   Arrivals arrivals;
+  std::atomic<bool> done{false};
+  std::thread receiver([&] {
+    while (!done) (void)recorder.poll(std::chrono::milliseconds{50}, arrivals);
+  });
   std::vector<std::vector<Clock::time_point>> sent(sensors);
   const Usage before = usage_of(daemon);
   const Clock::time_point begin = Clock::now();
-  const auto name = [](std::size_t s) { return "r" + std::to_string(s); };
+  const auto name = [sensors](std::size_t s) { return sensor_name('r', 1000 * sensors + s); };
   for (std::size_t n = 0; n < samples; ++n) {
     std::this_thread::sleep_until(
         begin + std::chrono::duration_cast<Clock::duration>(Seconds(static_cast<double>(n) / kRateHz)));
@@ -141,9 +150,10 @@ void real_time(const bus::Domain& domain, pid_t daemon, std::size_t sensors, std
       sent[s].push_back(Clock::now());
       (void)writer.publish(name(s), {&input[n], 1});
     }
-    (void)recorder.poll(std::chrono::milliseconds{4}, arrivals);
   }
   const double elapsed = Seconds(Clock::now() - begin).count();
+  done = true;
+  receiver.join();
   const Usage after = usage_of(daemon);
   std::vector<double> latency_ms;
   for (std::size_t s = 0; s < sensors; ++s) {

@@ -8,19 +8,13 @@
 #include <string>
 
 #include "core/signal/moments.hpp"
+#include "core/signal/sums.hpp"
 
 namespace gyrod::core {
 namespace {
 
 double dot(std::span<const double> x, std::span<const double> y) noexcept {
-  // Four partial sums let the compiler use vector registers without reordering what we wrote.
-  std::array<double, 4> sum{};
-  std::size_t n = 0;
-  for (; n + 4 <= x.size(); n += 4) {
-    for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += x[n + lane] * y[n + lane];
-  }
-  for (; n < x.size(); ++n) sum[0] += x[n] * y[n];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  return sum_of(x, y, [](auto a, auto b) { return a * b; });
 }
 
 void scale_roots(std::span<double> a, double factor) noexcept {
