@@ -33,24 +33,12 @@ std::vector<std::string> cells_of(const std::string& line) {
 Rig::Rig()
     : binary_(required_variable("GYROD_BINARY")),
       // Domains 20..219; ctest runs one process a test program, and process numbers differ.
-      domain_(20 + static_cast<std::uint32_t>(getpid()) % 200) {
-  std::string name = (std::filesystem::temp_directory_path() / "gyrod-test-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder: " + name);
-  folder_ = name;
-}
-
-Rig::~Rig() { std::filesystem::remove_all(folder_); }
-
-void Rig::write_file(const std::string& name, const std::string& text) const {
-  std::ofstream(path(name), std::ios::binary) << text;
-}
-
-std::string Rig::read_file(const std::string& name) const { return read_text(path(name)); }
+      domain_(20 + static_cast<std::uint32_t>(getpid()) % 200) {}
 
 std::unique_ptr<Process> Rig::start(const std::vector<std::string>& arguments) {
   std::vector<std::string> command{binary_};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  return std::make_unique<Process>(command, folder_, "process" + std::to_string(++started_));
+  return std::make_unique<Process>(command, folder_.path(), "process" + std::to_string(++started_));
 }
 
 std::unique_ptr<Process> Rig::start_on_bus(std::vector<std::string> arguments) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/process.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace gyrod::testing {
 
@@ -19,12 +19,11 @@ namespace gyrod::testing {
 class Rig : public ::testing::Test {
  protected:
   Rig();
-  ~Rig() override;
 
   /// Path of a file in the scratch folder.
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write_file(const std::string& name, const std::string& text) const;
-  [[nodiscard]] std::string read_file(const std::string& name) const;
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.path(name); }
+  void write_file(const std::string& name, const std::string& text) const { folder_.write(name, text); }
+  [[nodiscard]] std::string read_file(const std::string& name) const { return folder_.read(name); }
 
   /// Starts `gyrod ARGUMENTS...`.
   [[nodiscard]] std::unique_ptr<Process> start(const std::vector<std::string>& arguments);
@@ -67,7 +66,7 @@ class Rig : public ::testing::Test {
   [[nodiscard]] std::string config() const { return path("gyrod.json"); }
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
   std::string binary_;
   std::uint32_t domain_;
   int started_ = 0;

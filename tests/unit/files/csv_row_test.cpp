@@ -10,7 +10,7 @@
 namespace gyrod::files {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 std::vector<std::string_view> split(std::string_view row, char separator = ',') {
   std::vector<std::string_view> cells;

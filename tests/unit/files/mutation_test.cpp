@@ -8,7 +8,8 @@
 
 #include "files/file_error.hpp"
 #include "files/recording_reader.hpp"
-#include "unit/files/scratch_folder.hpp"
+#include "support/scratch_folder.hpp"
+#include "unit/files/gzip_file.hpp"
 
 namespace gyrod::files {
 namespace {
@@ -47,7 +48,7 @@ std::uint64_t read_all(const std::string& path, bool skip_broken_rows) {
 }
 
 TEST(Mutation, MutatedTextGivesRowsOrAFileError) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   std::mt19937_64 random(3);
   std::uint64_t rows = 0;
   for (int round = 0; round < kRounds; ++round) {
@@ -61,8 +62,8 @@ TEST(Mutation, MutatedTextGivesRowsOrAFileError) {
 }
 
 TEST(Mutation, MutatedGzipGivesRowsOrAFileError) {
-  const tests::ScratchFolder scratch;
-  scratch.write_gzip("whole.gz", kRecording);
+  const gyrod::testing::ScratchFolder scratch;
+  gyrod::testing::write_gzip(scratch, "whole.gz", kRecording);
   const auto whole = scratch.read("whole.gz");
   std::mt19937_64 random(4);
   for (int round = 0; round < kRounds; ++round) {

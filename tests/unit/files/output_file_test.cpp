@@ -9,17 +9,17 @@
 #include <gtest/gtest.h>
 
 #include "files/file_error.hpp"
-#include "unit/files/scratch_folder.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace gyrod::files {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::StartsWith;
-using testing::ThrowsMessage;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
 
-class OutputFileTest : public testing::Test {
+class OutputFileTest : public ::testing::Test {
  protected:
   void write(const std::string& path, const std::string& text) {
     OutputFile file(path);
@@ -27,7 +27,7 @@ class OutputFileTest : public testing::Test {
     file.close();
   }
 
-  tests::ScratchFolder scratch_;
+  gyrod::testing::ScratchFolder scratch_;
 };
 
 TEST_F(OutputFileTest, IsThereInFullAfterClose) {

@@ -10,11 +10,11 @@
 namespace gyrod::files {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using testing::Optional;
-using testing::ThrowsMessage;
+using ::testing::ThrowsMessage;
 
 RecordingHeader recognise(std::string_view text) { return recognise_columns(text, "a.csv", false); }
 

@@ -10,19 +10,20 @@
 #include <gtest/gtest.h>
 
 #include "files/file_error.hpp"
-#include "unit/files/scratch_folder.hpp"
+#include "support/scratch_folder.hpp"
+#include "unit/files/gzip_file.hpp"
 
 namespace gyrod::files {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 constexpr const char* kHeader = "stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps,note\n";
 
-class RecordingReaderTest : public testing::Test {
+class RecordingReaderTest : public ::testing::Test {
  protected:
   /// All rows of a file that holds `text`.
   std::vector<RecordingRow> read(std::string_view text, const ReaderOptions& options = {}) {
@@ -37,7 +38,7 @@ class RecordingReaderTest : public testing::Test {
     return rows;
   }
 
-  tests::ScratchFolder scratch_;
+  gyrod::testing::ScratchFolder scratch_;
 };
 
 TEST_F(RecordingReaderTest, GivesSampleLineAndText) {
@@ -103,7 +104,7 @@ TEST_F(RecordingReaderTest, QuotedAndPaddedCellsAndOtherSeparatorsAreFine) {
 
 TEST_F(RecordingReaderTest, GzipIsToldByContentNotByName) {
   const std::string text = std::string(kHeader) + "1,1,2,3,\n";
-  EXPECT_EQ(read_file(scratch_.write_gzip("zipped.csv", text)).size(), 1U);
+  EXPECT_EQ(read_file(gyrod::testing::write_gzip(scratch_, "zipped.csv", text)).size(), 1U);
   EXPECT_EQ(read_file(scratch_.write("plain.csv.gz", text)).size(), 1U);
 }
 
@@ -188,7 +189,7 @@ class DamagedGzipTest : public RecordingReaderTest {
   std::string image() {
     std::string text = kHeader;
     for (int i = 0; i < 20'000; ++i) text += std::to_string(i * 7919 % 100'003) + ",1,2,3,\n";
-    scratch_.write_gzip("whole.gz", text);
+    gyrod::testing::write_gzip(scratch_, "whole.gz", text);
     return scratch_.read("whole.gz");
   }
 };

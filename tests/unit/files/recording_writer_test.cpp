@@ -10,13 +10,13 @@
 #include <gtest/gtest.h>
 
 #include "files/recording_reader.hpp"
-#include "unit/files/scratch_folder.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace gyrod::files {
 namespace {
 
 TEST(RecordingWriter, ReplacesTheRatesAndNothingElse) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   const auto header = recognise_columns("\"Note\",gyro_z_radps, gyro_x_radps,gyro_y_radps,T", "in", false);
   RecordingWriter writer(scratch.path("out.csv"), header);
   writer.write("\"a,\"\"b\"\"\",9, 9,9, 007.50", {1.5, -0.25, 0.1});
@@ -27,7 +27,7 @@ TEST(RecordingWriter, ReplacesTheRatesAndNothingElse) {
 }
 
 TEST(RecordingWriter, KeepsUnitSeparatorAndMissingAxes) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   const auto header = recognise_columns("t;gyro_z_mradps", "in", true);
   RecordingWriter writer(scratch.path("out.csv"), header);
   writer.write("7;0", {1.0, 1.0, 0.25});
@@ -36,7 +36,7 @@ TEST(RecordingWriter, KeepsUnitSeparatorAndMissingAxes) {
 }
 
 TEST(RecordingWriter, NotFiniteRatesAreWrittenAsWords) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   RecordingWriter writer(scratch.path("out.csv"),
                          recognise_columns("gyro_x_dps,gyro_y_dps,gyro_z_dps", "in", false));
   writer.write("1,2,3",
@@ -46,7 +46,7 @@ TEST(RecordingWriter, NotFiniteRatesAreWrittenAsWords) {
 }
 
 TEST(RecordingWriter, RatesReadBackBitForBitThroughGzip) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   const auto header = recognise_columns("gyro_x_radps,gyro_y_radps,gyro_z_radps", "in", false);
   std::mt19937_64 bits(2);
   std::vector<std::array<double, 3>> rates(1000);

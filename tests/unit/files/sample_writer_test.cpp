@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "files/recording_reader.hpp"
-#include "unit/files/scratch_folder.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace gyrod::files {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 const stream::Sample kSample{7, 1'700'000'000'123'456'789, {1.0 / 3.0, -2.0 / 7.0, 1e-17 / 3.0}};
 
 TEST(SampleWriter, MeasuredRowHasItsColumns) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   SampleWriter writer(scratch.path("a.csv"), RowKind::kMeasured, RateUnit::kRadps);
   writer.write_measured("imu", {1, -2, {0.5, 0.25, -1.0}});
   writer.close();
@@ -24,7 +24,7 @@ TEST(SampleWriter, MeasuredRowHasItsColumns) {
 }
 
 TEST(SampleWriter, DenoisedRowHasItsColumns) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   SampleWriter writer(scratch.path("a.csv"), RowKind::kDenoised, RateUnit::kRadps);
   stream::DenoisedSample sample;
   sample.sequence = 3;
@@ -42,7 +42,7 @@ TEST(SampleWriter, DenoisedRowHasItsColumns) {
 }
 
 TEST(SampleWriter, SimulatedRowHoldsTheTruth) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   SampleWriter writer(scratch.path("a.csv"), RowKind::kSimulated, RateUnit::kMradps);
   writer.write_simulated("imu", {0, 0, {0.5, 0.25, 1.0}}, {1.0, 2.0, 4.0});
   writer.close();
@@ -53,7 +53,7 @@ TEST(SampleWriter, SimulatedRowHoldsTheTruth) {
 }
 
 TEST(SampleWriter, ReadsBackBitForBit) {
-  const tests::ScratchFolder scratch;
+  const gyrod::testing::ScratchFolder scratch;
   for (const RowKind kind : {RowKind::kMeasured, RowKind::kSimulated}) {
     SampleWriter writer(scratch.path("a.csv.gz"), kind, RateUnit::kRadps);
     if (kind == RowKind::kMeasured) writer.write_measured("front, left \"A\"", kSample);

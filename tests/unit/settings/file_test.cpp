@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "settings/load.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -20,16 +21,7 @@ using ::testing::SizeIs;
 
 class SettingsFile : public ::testing::Test {
  protected:
-  SettingsFile() {
-    std::string pattern = (fs::temp_directory_path() / "gyrod-settings-XXXXXX").string();
-    directory_ = mkdtemp(pattern.data());
-  }
-  ~SettingsFile() override { fs::remove_all(directory_); }
-
-  fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(directory_ / name) << text;
-    return directory_ / name;
-  }
+  fs::path write(const std::string& name, const std::string& text) { return scratch_.write(name, text); }
 
   /// What load_settings() throws, "" if it does not.
   static std::string error_of(const fs::path& file) {
@@ -41,7 +33,8 @@ class SettingsFile : public ::testing::Test {
     return "";
   }
 
-  fs::path directory_;
+  gyrod::testing::ScratchFolder scratch_;
+  const fs::path& directory_ = scratch_.path();
 };
 
 TEST_F(SettingsFile, GivenKeysReplaceDefaultsAndTheOthersStay) {

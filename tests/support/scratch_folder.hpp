@@ -1,6 +1,7 @@
 /// A folder of its own for one test, removed with all that is in it.
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,9 +10,7 @@
 #include <string_view>
 #include <unistd.h>
 
-#include <zlib.h>
-
-namespace gyrod::tests {
+namespace gyrod::testing {
 
 class ScratchFolder {
  public:
@@ -27,19 +26,12 @@ class ScratchFolder {
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   [[nodiscard]] std::string path(std::string_view name) const { return (path_ / name).string(); }
 
   /// Writes a file as it stands. @return its path
   std::string write(std::string_view name, std::string_view text) const {
     std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-
-  /// Writes a gzip file, whatever its name. @return its path
-  std::string write_gzip(std::string_view name, std::string_view text) const {
-    const gzFile file = gzopen(path(name).c_str(), "wb");
-    gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
-    gzclose(file);
     return path(name);
   }
 
@@ -57,4 +49,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace gyrod::tests
+}  // namespace gyrod::testing
