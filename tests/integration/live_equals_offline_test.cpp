@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -66,8 +67,12 @@ TEST_F(LiveEqualsOffline, OnARecordingWithEverythingThatIsRefused) {
   append(1990, 19900, "0.01");  // out of order: position 1990 has arrived
   append(2004, 20020, "0.01");  // time goes back
   append(2008, 20080, "0.01");  // a gap of 3 and the refused one
-  for (int n = 0; n < 300; ++n)
-    append(13000 + n, 130000 + 10 * n, "0.01");  // a gap of 10 windows, then a constant
+  // A gap of 10 windows, then a constant, then zero, then the coarse steps of a converter.
+  const std::array<std::string, 3> plateaus = {"0.01", "0", "0.0008726646259971648"};
+  for (std::size_t n = 0; n < 900; ++n) {
+    const std::string& rate = n < 600 ? plateaus[n / 300] : plateaus[n / 7 % 2 + 1];
+    append(13000 + static_cast<int>(n), 130000 + 10 * static_cast<std::int64_t>(n), rate);
+  }
   write_file("bad.csv", text);
   const Result offline =
       run({"denoise", path("bad.csv"), "-o", path("offline.csv"), "--summary", path("summary.json")});
@@ -82,8 +87,8 @@ TEST_F(LiveEqualsOffline, OnARecordingWithEverythingThatIsRefused) {
   EXPECT_EQ(counted("out_of_range"), 1.0);
   EXPECT_EQ(counted("duplicate") + counted("out_of_order"), 2.0);
   EXPECT_EQ(counted("time_backwards"), 1.0);
-  EXPECT_EQ(metric(*daemon, "gyrod_samples_received_total"), 2308.0);
-  EXPECT_EQ(metric(*daemon, "gyrod_samples_published_total"), 2302.0);
+  EXPECT_EQ(metric(*daemon, "gyrod_samples_received_total"), 2908.0);
+  EXPECT_EQ(metric(*daemon, "gyrod_samples_published_total"), 2902.0);
   EXPECT_EQ(metric(*daemon, "gyrod_samples_in_flight"), 0.0);
 
   // Offline keeps refused rows where they were: they are the rows that live does not have.
@@ -96,6 +101,19 @@ TEST_F(LiveEqualsOffline, OnARecordingWithEverythingThatIsRefused) {
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(refused_rows[i]));
   }
   EXPECT_EQ(columns_of(path("live.csv"), {"sequence", "gyro_x_radps", "gyro_y_radps", "gyro_z_radps"}), kept);
+  EXPECT_EQ(stop_daemon(*daemon), 0);
+}
+
+TEST_F(LiveEqualsOffline, OnRecordingsOfOneToEightSamples) {
+  const auto daemon = start_daemon();
+  for (std::uint64_t samples = 1; samples <= 8; ++samples) {
+    write_file("short.csv", noisy_recording(samples));
+    ASSERT_EQ(run({"denoise", path("short.csv"), "-o", path("offline.csv")}).exit_code, 0);
+    replay(path("short.csv"), "short" + std::to_string(samples), 1, "radps", "live.csv");
+    const auto live = columns_of(path("live.csv"), kRates);
+    EXPECT_EQ(live.size(), samples);
+    EXPECT_EQ(live, columns_of(path("offline.csv"), kRates));
+  }
   EXPECT_EQ(stop_daemon(*daemon), 0);
 }
 
