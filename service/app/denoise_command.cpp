@@ -73,6 +73,8 @@ const char* name_of(settings::Screening screening) noexcept {
 }
 
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
+  // Reading from a terminal or a pipe can wait for ever.
+  if (flags.input == "-") interrupt.let_through();
   const settings::Settings settings = load_or_default(flags.config);
   files::RecordingReader reader(flags.input, flags.recording.options);
   files::RecordingWriter writer(flags.output, reader.header());
@@ -83,7 +85,7 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   DenoiseSummary summary;
   OfflineDenoiser denoiser(settings, rows, summary);
   if (!denoise_rows(reader, denoiser, interrupt)) {
-    std::fprintf(stderr, "gyrod: interrupted, nothing written\n");
+    std::fprintf(stderr, "gyrod: interrupted\n");
     return kInterrupted;
   }
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "settings/load.hpp"
+#include "stream/registry.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -66,6 +67,14 @@ CLI::Validator in_range(double least, double most) {
     std::ostringstream complaint;
     complaint << "'" << text << "' given; expected a number from " << least << " to " << most;
     return complaint.str();
+  };
+  return {check, ""};
+}
+
+CLI::Validator sensor_id() {
+  const auto check = [](const std::string& text) {
+    if (stream::is_valid_sensor_id(text)) return std::string{};
+    return "'" + text + "' given; expected 1 to 64 printable ASCII characters without spaces";
   };
   return {check, ""};
 }

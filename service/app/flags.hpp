@@ -43,6 +43,7 @@ struct SpeedFlag {
 /// Checks of option values. Unlike CLI11's own, they do not add their limits to the option's line in the
 /// help, where the text says what is meant.
 [[nodiscard]] CLI::Validator in_range(double least, double most);
+[[nodiscard]] CLI::Validator sensor_id();
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
 
 /// Settings of a configuration file, or the defaults where none is named. @throws settings::SettingsError

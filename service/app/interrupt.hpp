@@ -1,8 +1,9 @@
-/// The wish to end: Ctrl-C, SIGTERM, or the terminal going away.
+/// The wish to end: Ctrl-C, SIGTERM, or the terminal going away (unless that is ignored, as under nohup).
 #pragma once
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 
 namespace gyrod::app {
 
@@ -13,6 +14,10 @@ class Interrupt {
  public:
   Interrupt();
 
+  /// Lets signals end the process at once, for a wait that nobody can look out of; until hold().
+  void let_through() noexcept;
+  void hold() noexcept;
+
   /// Whether a signal has come; once true it stays true. Any thread.
   [[nodiscard]] bool requested() noexcept { return wait_for(std::chrono::milliseconds{0}); }
 
@@ -20,6 +25,7 @@ class Interrupt {
   bool wait_for(std::chrono::nanoseconds timeout) noexcept;
 
  private:
+  sigset_t signals_{};
   std::atomic<bool> requested_{false};
 };
 

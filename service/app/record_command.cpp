@@ -125,7 +125,9 @@ int record(const RecordFlags& flags, Interrupt& interrupt) {
   const settings::Settings settings = flags.bus.load();
   const bus::Domain domain(settings.bus.domain, settings.bus.network);
   const auto wait = std::chrono::milliseconds(static_cast<std::int64_t>(flags.wait_s * 1e3));
+  interrupt.let_through();  // looking for the topic; nothing has been written yet
   bus::Recorder recorder(domain, bus_options(settings.bus), flags.topic, wait);
+  interrupt.hold();
   RowsFromBus rows(flags, row_kind(recorder));
   await_writer(flags, recorder, interrupt);
   take_rows(flags, recorder, rows, interrupt);
@@ -148,7 +150,9 @@ void add_options(CLI::App& command, RecordFlags& flags) {
   command.add_option("-o,--output", flags.output, "Recording; gzip if it ends in .gz; - for standard output")
       ->type_name("OUT.csv[.gz]")
       ->required();
-  command.add_option("--sensor", flags.sensor, "Only this sensor [all]")->type_name("NAME");
+  command.add_option("--sensor", flags.sensor, "Only this sensor [all]")
+      ->type_name("NAME")
+      ->check(sensor_id());
   command.add_option("--seconds", flags.seconds, "End after this time")
       ->type_name("S")
       ->check(in_range(0.0, 1e9));

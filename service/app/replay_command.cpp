@@ -32,6 +32,7 @@ bool send_rows(files::RecordingReader& reader, SampleSender& sender) {
 
 int replay(const ReplayFlags& flags, Interrupt& interrupt) {
   const settings::Settings settings = flags.bus.load();
+  if (flags.input == "-") interrupt.let_through();  // reading from a pipe can wait for ever
   files::RecordingReader reader(flags.input, flags.recording.options);
   SampleSender sender(settings.bus, flags.send, interrupt);
   const auto begin = std::chrono::steady_clock::now();
@@ -56,8 +57,11 @@ void add_replay(CLI::App& parser, Action& chosen) {
   command->add_option("input", flags->input, "Recording: CSV, plain or gzip; - for standard input")
       ->type_name("IN.csv[.gz]")
       ->required();
-  command->add_option("--sensor", flags->send.sensor, "Id of the sensor on the bus, 1 to 64 characters")
+  command
+      ->add_option("--sensor", flags->send.sensor,
+                   "Id of the sensor on the bus, 1 to 64 characters, no spaces")
       ->type_name("NAME")
+      ->check(sensor_id())
       ->required();
   flags->send.add_to(*command);
   flags->recording.add_to(*command);

@@ -155,8 +155,9 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
       ->type_name("S")
       ->check(in_range(0.0, 1e9));
   command.add_option("--samples", flags.samples, "Length in samples")->type_name("N")->excludes("--seconds");
-  command.add_option("--sensor", flags.send.sensor, "Id of the sensor, 1 to 64 characters [sim]")
-      ->type_name("NAME");
+  command.add_option("--sensor", flags.send.sensor, "Id of the sensor, 1 to 64 characters, no spaces [sim]")
+      ->type_name("NAME")
+      ->check(sensor_id());
   command
       .add_option("-o,--output", flags.output,
                   "To this file, with the truth, and not to DDS; gzip if it ends in .gz")

@@ -27,10 +27,9 @@ void StatusLog::log_changes(const stream::EngineSnapshot& now, std::size_t match
   if (total.hops_widened > before.hops_widened)
     spdlog::warn("overload: windows come less often (hop widened)");
   if (total.overloads > before.overloads)
-    spdlog::warn("overload: samples of {} sensors pass through undenoised",
-                 total.overloads - before.overloads);
+    spdlog::warn("overload: samples pass through undenoised ({} times)", total.overloads - before.overloads);
   if (total.restarts > before.restarts)
-    spdlog::warn("{} sensors began anew (sequence or clock)", total.restarts - before.restarts);
+    spdlog::warn("sequence or clock of a sensor began anew ({} times)", total.restarts - before.restarts);
 }
 
 void StatusLog::log_growth(const stream::Counts& now) {

@@ -56,9 +56,9 @@ Engine::Impl::Impl(EngineOptions options, MethodFactory method, Sink& sink, Cloc
 }
 
 void Engine::Impl::submit(Channel& channel, WindowJob job) {
-  wait_while(channel, [&channel] { return !channel.can_submit(); });
   job.sample_rate_hz = channel.gate.rate_hz();
-  job.submitted_s = clock_();
+  job.submitted_s = clock_();  // before the wait, which is part of the latency
+  wait_while(channel, [&channel] { return !channel.can_submit(); });
   {
     const std::lock_guard lock(idle_mutex_);
     ++outstanding_;

@@ -50,10 +50,12 @@ class HopSchedule {
 
   /// The window that ends before `end`. @pre due(end)
   [[nodiscard]] WindowJob take(Position end) noexcept {
+    const Position step = end - last_end_;
     last_end_ = end;
     const bool full = end - segment_begin_ >= options_.window;
     std::uint32_t flags = full ? 0U : static_cast<std::uint32_t>(SampleFlag::kWarmingUp);
-    if (hop_ > options_.hop) flags |= static_cast<std::uint32_t>(SampleFlag::kHopWidened);
+    // What counts is how long these samples waited, also where the hop has just come back to normal.
+    if (step > options_.hop) flags |= static_cast<std::uint32_t>(SampleFlag::kHopWidened);
     return job(end, std::max(released_, end - options_.lag), flags);
   }
 
@@ -63,6 +65,7 @@ class HopSchedule {
     const bool full = end - segment_begin_ >= options_.window;
     std::uint32_t flags = static_cast<std::uint32_t>(SampleFlag::kTail);
     if (!full) flags |= static_cast<std::uint32_t>(SampleFlag::kWarmingUp);
+    if (end - last_end_ >= options_.hop) flags |= static_cast<std::uint32_t>(SampleFlag::kHopWidened);
     WindowJob last = job(end, end, flags);
     if (last.release_begin == end) last.begin = end;
     segment_begin_ = last_end_ = released_ = end;

@@ -116,6 +116,9 @@ void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
   if (channel == nullptr || stopping_ || !channel->gate.is_open()) return;
   close_segment(*channel, true);
   channel->gate.reopen();
+  if (!channel->fast_loop) return;
+  // A worker tells the end; the fast loop must not release samples of the next stream before that.
+  wait_while(*channel, [channel] { return channel->oldest_submission().has_value(); });
 }
 
 }  // namespace gyrod::stream

@@ -23,7 +23,7 @@ struct Sample {
 enum class SampleFlag : std::uint32_t {
   /// The window was not full yet: denoised on what there was.
   kWarmingUp = 1U << 0U,
-  /// Released at the end of a stream, before a long gap or at a stop: less than `lag` samples of look-ahead.
+  /// Released at the end of a stream, before a long gap or at a stop; the last of them saw less than `lag` newer samples.
   kTail = 1U << 1U,
   /// Undenoised: the window was too short to decompose, or overload step 2 is in force.
   kPassThrough = 1U << 2U,

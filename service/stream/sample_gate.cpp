@@ -18,7 +18,9 @@ Verdict SampleGate::judge(const Sample& sample) noexcept {
     return {};
   }
   if (const auto reason = stale(sample)) {
-    if (!begins_anew(sample)) return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
+    // A sample that comes a second time, stamp and all, is no sign of a new beginning, however many of them come.
+    const bool repeated = *reason == RejectReason::kDuplicate && sample.stamp_ns <= last_stamp_ns_;
+    if (repeated || !begins_anew(sample)) return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
     reopen();
     remember(sample);
     return {.kind = Verdict::Kind::kRestart};
@@ -62,11 +64,19 @@ bool SampleGate::begins_anew(const Sample& sample) noexcept {
   return suspects_ >= kAnew;
 }
 
+/// Sample periods in an interval; 0 while the period is not known.
+double SampleGate::periods_in(std::int64_t interval_ns) const noexcept {
+  return period_.period_ns() > 0.0 ? static_cast<double>(interval_ns) / period_.period_ns() : 0.0;
+}
+
 std::uint64_t SampleGate::missing_by_stamp(std::int64_t interval_ns) const noexcept {
   if (!(period_.period_ns() > 0.0)) return 0;
   if (!period_.regular() && interval_ns <= kLongestPauseNs) return 0;
-  const double periods = std::round(static_cast<double>(interval_ns) / period_.period_ns());
-  return periods > 1.0 ? static_cast<std::uint64_t>(periods) - 1 : 0;
+  const double periods = periods_in(interval_ns);
+  const double whole = std::round(periods);
+  // A late stamp is no whole number of periods late; samples that are missing leave a whole number.
+  const bool late = interval_ns <= kLongestPauseNs && std::abs(periods - whole) > PeriodEstimator::kTolerance;
+  return whole > 1.0 && !late ? static_cast<std::uint64_t>(whole) - 1 : 0;
 }
 
 Verdict SampleGate::advance(const Sample& sample) noexcept {
@@ -74,16 +84,18 @@ Verdict SampleGate::advance(const Sample& sample) noexcept {
   // Wrapping subtraction: stamps of opposite ends of the clock differ by more than an int64 holds.
   const auto interval_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_ns) -
                                                      static_cast<std::uint64_t>(last_stamp_ns_));
-  const bool renumbered = step > kLargestLoss || interval_ns < 0;
+  const bool renumbered =
+      step > kLargestLoss || interval_ns < 0 || periods_in(interval_ns) > static_cast<double>(kLargestLoss);
   const std::uint64_t by_sequence = renumbered || step == 0 ? 0 : step - 1;
   const std::uint64_t absent = renumbered ? 0 : std::max(by_sequence, missing_by_stamp(interval_ns));
   const std::uint64_t missing = absent - std::min(absent, refused_ahead_);
-  const bool paused = interval_ns > kLongestPauseNs && absent == 0;
+  const bool paused = interval_ns > kLongestPauseNs && absent == 0 && !(period_.period_ns() > 0.0);
 
   // Every interval counts, also one in which samples seem to be missing: a sensor that changes its rate is
   // thus noticed.
-  if (!renumbered && !paused)
-    period_.add(interval_ns / static_cast<std::int64_t>(std::max<std::uint64_t>(step, 1)));
+  const std::int64_t period_ns =
+      renumbered ? 0 : interval_ns / static_cast<std::int64_t>(std::max<std::uint64_t>(step, 1));
+  if (period_ns > 0) period_.add(period_ns);
   if (renumbered || paused || absent > options_.max_bridged_samples) {
     reopen();
     remember(sample);

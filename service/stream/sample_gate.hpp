@@ -43,7 +43,7 @@ class SampleGate {
   /// A pause longer than this closes the window even where the stamps are too irregular to count missing
   /// samples.
   static constexpr std::int64_t kLongestPauseNs = 1'000'000'000;
-  /// A sequence step beyond this is not a loss but another numbering.
+  /// A sequence step beyond this is not a loss but another numbering, as many periods in time another clock.
   static constexpr std::uint64_t kLargestLoss = 1ULL << 31U;
 
   explicit SampleGate(const GateOptions& options) noexcept;
@@ -62,6 +62,7 @@ class SampleGate {
   [[nodiscard]] std::optional<RejectReason> unfit(const Sample& sample) const noexcept;
   [[nodiscard]] std::optional<RejectReason> stale(const Sample& sample) const noexcept;
   [[nodiscard]] bool begins_anew(const Sample& sample) noexcept;
+  [[nodiscard]] double periods_in(std::int64_t interval_ns) const noexcept;
   [[nodiscard]] std::uint64_t missing_by_stamp(std::int64_t interval_ns) const noexcept;
   [[nodiscard]] Verdict advance(const Sample& sample) noexcept;
   void remember(const Sample& sample) noexcept;

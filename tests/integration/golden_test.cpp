@@ -25,8 +25,10 @@ class Golden : public Rig {
     const auto y = columns_of(b, {column});
     if (x.size() != y.size()) return INFINITY;
     double largest = 0.0;
-    for (std::size_t n = 0; n < x.size(); ++n)
-      largest = std::fmax(largest, std::fabs(std::stod(x[n]) - std::stod(y[n])));
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      const double distance = std::fabs(std::stod(x[n]) - std::stod(y[n]));
+      if (!(distance <= largest)) largest = distance;  // a NaN stays
+    }
     return largest;
   }
 };
@@ -52,6 +54,7 @@ TEST_F(Golden, TheDenoisedDriveIsTheSame) {
 }
 
 TEST_F(Golden, DenoisingBringsTheDriveNearerToItsTruth) {
+  ASSERT_EQ(run({"denoise", golden("drive.csv"), "-o", path("out.csv")}).exit_code, 0);
   for (const std::string axis : {"x", "y", "z"}) {
     const auto distance = [&](const std::string& file) {
       const auto rate = columns_of(file, {"gyro_" + axis + "_radps"});
@@ -61,7 +64,7 @@ TEST_F(Golden, DenoisingBringsTheDriveNearerToItsTruth) {
         sum += std::pow(std::stod(rate[n]) - std::stod(truth[n]), 2);
       return std::sqrt(sum / static_cast<double>(rate.size()));
     };
-    EXPECT_LT(distance(golden("drive_denoised.csv")), 0.8 * distance(golden("drive.csv"))) << axis;
+    EXPECT_LT(distance(path("out.csv")), 0.8 * distance(golden("drive.csv"))) << axis;
   }
 }
 

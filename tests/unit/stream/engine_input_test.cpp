@@ -117,6 +117,8 @@ TEST(Engine, LeavesAConstantAsItIs) {
     const Sample sample = sample_at(n, 0.25);
     engine.push("imu", {&sample, 1});
   }
+  engine.end_of_stream("imu");
+  ASSERT_EQ(sink.samples("imu").size(), 500U);
   for (const DenoisedSample& sample : sink.samples("imu")) EXPECT_EQ(sample.rate_radps[0], 0.25);
 }
 

@@ -55,6 +55,7 @@ TEST(EngineWithModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooLate) {
                 [&now] { return now.load(); });
   gate.set_open(false);
   engine.push("imu", counting_samples(40));
+  gate.wait_for_entry();
   now = 5.0;
   engine.push("imu", counting_samples(100, 40));  // would wait for ever if it waited for the worker
   const auto output = sink.samples("imu");

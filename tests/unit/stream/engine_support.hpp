@@ -59,7 +59,14 @@ class Gatekeeper {
  public:
   void pass() {
     std::unique_lock lock(mutex_);
+    ++entered_;
+    changed_.notify_all();
     changed_.wait(lock, [this] { return open_; });
+  }
+  /// Waits until somebody has come to the gate.
+  void wait_for_entry() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return entered_ > 0; });
   }
   void set_open(bool open) {
     {
@@ -73,6 +80,7 @@ class Gatekeeper {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool open_ = true;
+  int entered_ = 0;
 };
 
 }  // namespace gyrod::stream

@@ -52,6 +52,19 @@ TEST(Engine, TellsTheEndOfASensorOnceAfterTheLastOfItsSamples) {
   }
 }
 
+TEST(Engine, TellsTheEndBeforeSamplesOfTheNextStream) {
+  for (const auto& method : {MethodFactory{window_marker()}, MethodFactory{testing::last_sample_method()}}) {
+    RecordingSink sink;
+    Engine engine(small_options(1), method, sink);
+    engine.push("imu", counting_samples(40));
+    engine.end_of_stream("imu");
+    engine.push("imu", counting_samples(30, 40));
+    engine.stop(std::chrono::seconds{60});
+    EXPECT_EQ(sink.ended_after("imu"), std::vector<std::size_t>{40});
+    EXPECT_EQ(sink.samples("imu").size(), 70U);
+  }
+}
+
 TEST(Engine, AnswersHowManySamplesItAccepted) {
   RecordingSink sink;
   Engine engine(small_options(), window_marker(), sink);

@@ -75,5 +75,14 @@ TEST(HopSchedule, WidensUpToItsMaximumAndComesBack) {
   EXPECT_EQ(schedule.hop(), 32);
 }
 
+TEST(HopSchedule, FlagsWhatWaitedForAWideHopAlsoWhereTheHopIsBackToNormal) {
+  HopSchedule schedule(kOptions);
+  static_cast<void>(schedule.take(32));
+  ASSERT_TRUE(schedule.widen());
+  schedule.narrow();
+  EXPECT_NE(schedule.take(96).flags & bit(SampleFlag::kHopWidened), 0U) << "two hops after the window before";
+  EXPECT_EQ(schedule.take(128).flags & bit(SampleFlag::kHopWidened), 0U);
+}
+
 }  // namespace
 }  // namespace gyrod::stream

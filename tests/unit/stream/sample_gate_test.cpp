@@ -190,5 +190,41 @@ TEST_F(SampleGateTest, SurvivesStampsAtTheEndsOfTheClock) {
   EXPECT_EQ(gate_.judge(sample).kind, Kind::kRestart);
 }
 
+TEST_F(SampleGateTest, TakesALateStampForWhatItIs) {
+  feed(200);
+  Sample late = sample_at(200);
+  late.stamp_ns += 6 * kPeriodNs / 10;
+  const Verdict verdict = gate_.judge(late);
+  EXPECT_EQ(verdict.kind, Kind::kAccept);
+  EXPECT_EQ(verdict.missing, 0U) << "nothing is missing from the numbers, and no whole period has passed";
+  EXPECT_EQ(gate_.judge(sample_at(201)).missing, 0U);
+}
+
+TEST_F(SampleGateTest, TakesAClockThatIsSetForANewBeginning) {
+  feed(200);
+  Sample sample = sample_at(200);
+  sample.stamp_ns += 1'700'000'000'000'000'000;
+  const Verdict verdict = gate_.judge(sample);
+  EXPECT_EQ(verdict.kind, Kind::kRestart);
+  EXPECT_EQ(verdict.missing, 0U);
+  sample.sequence = 201;
+  sample.stamp_ns = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(gate_.judge(sample).kind, Kind::kRestart);
+}
+
+TEST_F(SampleGateTest, RefusesARunThatIsSentTwiceHoweverLong) {
+  feed(200);
+  for (std::uint64_t n = 180; n < 200; ++n) expect_refused(sample_at(n), RejectReason::kDuplicate);
+}
+
+TEST(SlowSensor, IsNotAPauseAfterEverySample) {
+  SampleGate gate({.sample_rate_hz = 0.5, .max_rate_radps = 175.0, .max_bridged_samples = 16});
+  for (std::int64_t n = 0; n < 100; ++n) {
+    const Verdict verdict = gate.judge({static_cast<std::uint64_t>(n), n * 2'000'000'000, {}});
+    EXPECT_EQ(verdict.kind, Kind::kAccept);
+    EXPECT_EQ(verdict.missing, 0U);
+  }
+}
+
 }  // namespace
 }  // namespace gyrod::stream
