@@ -48,6 +48,7 @@ bool denoise_rows(files::RecordingReader& reader, OfflineDenoiser& denoiser, Int
     if (interrupt.requested()) return false;
     progress.show(reader.progress(), reader.rows());
   }
+  if (interrupt.requested()) return false;  // the end may have come because of the same Ctrl-C
   denoiser.finish();
   return true;
 }
@@ -75,6 +76,7 @@ const char* name_of(settings::Screening screening) noexcept {
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   // Reading from a terminal or a pipe can wait for ever.
   if (flags.input == "-") interrupt.let_through();
+  if (flags.summary == flags.output) throw CLI::ValidationError("--summary", "is the same file as --output");
   const settings::Settings settings = load_or_default(flags.config);
   files::RecordingReader reader(flags.input, flags.recording.options);
   files::RecordingWriter writer(flags.output, reader.header());

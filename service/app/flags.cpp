@@ -13,7 +13,7 @@ std::string check_speed(const std::string& text) {
   if (text == "max") return {};
   double speed = 0.0;
   const bool good = CLI::detail::lexical_cast(text, speed) && speed > 0.0 && speed <= 1e6;
-  return good ? std::string{} : "--speed is '" + text + "'; expected a number above 0, or max";
+  return good ? std::string{} : "--speed is '" + text + "'; expected a number above 0, up to 1e6, or max";
 }
 
 }  // namespace

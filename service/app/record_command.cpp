@@ -155,9 +155,10 @@ void add_options(CLI::App& command, RecordFlags& flags) {
       ->check(sensor_id());
   command.add_option("--seconds", flags.seconds, "End after this time")
       ->type_name("S")
-      ->check(in_range(0.0, 1e9));
+      ->check(in_range(1e-3, 1e9));
   command.add_option("--samples", flags.samples, "End after so many samples, all sensors together")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(in_range(1.0, 1e15));
   command.add_flag("--until-end", flags.until_end, "End when every sensor that sent has ended");
   command
       .add_option_function<std::string>(

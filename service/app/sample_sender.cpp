@@ -47,6 +47,9 @@ SampleSender::SampleSender(const settings::BusSettings& settings, const SendFlag
                      " on network '" + settings.network +
                      "'; expected a gyrod run with the same --domain and --network");
   }
+  // The others that listen already are found within a moment of the first; what is sent before they are is not theirs.
+  constexpr std::chrono::milliseconds kDiscovery{500};
+  (void)interrupt.wait_for(kDiscovery);
   waiting_.reserve(chunk_);
 }
 

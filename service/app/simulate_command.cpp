@@ -147,14 +147,18 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
       ->type_name("still|drive")
       ->check(one_of({"still", "drive"}));
   command.add_option("--seed", flags.seed, "Same seed and options: same samples on any machine [1]")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(in_range(0.0, 1e15));
   command.add_option("--rate", flags.rate_hz, "Sample rate [100]")
       ->type_name("HZ")
       ->check(in_range(1.0, 1e5));
   command.add_option("--seconds", flags.seconds, "Length [a file: 60; DDS: until Ctrl-C]")
       ->type_name("S")
-      ->check(in_range(0.0, 1e9));
-  command.add_option("--samples", flags.samples, "Length in samples")->type_name("N")->excludes("--seconds");
+      ->check(in_range(1e-3, 1e9));
+  command.add_option("--samples", flags.samples, "Length in samples")
+      ->type_name("N")
+      ->check(in_range(1.0, 1e15))
+      ->excludes("--seconds");
   command.add_option("--sensor", flags.send.sensor, "Id of the sensor, 1 to 64 characters, no spaces [sim]")
       ->type_name("NAME")
       ->check(sensor_id());
@@ -171,7 +175,9 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
   command.add_option("--engine-tone", flags.engine_tone_dps, "Amplitude of an engine tone while driving [0]")
       ->type_name("DEG/S")
       ->check(in_range(0.0, 1e3));
-  command.add_option("--engine-tone-hz", flags.engine_tone_hz, "Its frequency [27]")->type_name("HZ");
+  command.add_option("--engine-tone-hz", flags.engine_tone_hz, "Its frequency [27]")
+      ->type_name("HZ")
+      ->check(in_range(1e-3, 1e5));
 }
 
 }  // namespace

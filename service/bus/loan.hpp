@@ -47,7 +47,7 @@ class Loan {
   std::size_t size_ = 0;
   std::array<void*, kMaxLoan> messages_{};  // the first null pointer asks for a loan
   // Filled by the take; not set before, to save 20 kB of zeros a take.
-  std::array<dds_sample_info_t, kMaxLoan> infos_;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::array<dds_sample_info_t, kMaxLoan> infos_;
 };
 
 }  // namespace gyrod::bus

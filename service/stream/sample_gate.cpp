@@ -19,6 +19,7 @@ Verdict SampleGate::judge(const Sample& sample) noexcept {
   }
   if (const auto reason = stale(sample)) {
     // A sample that comes a second time, stamp and all, is no sign of a new beginning, however many of them come.
+    if (sample.sequence > last_sequence_) ++refused_ahead_;
     const bool repeated = *reason == RejectReason::kDuplicate && sample.stamp_ns <= last_stamp_ns_;
     if (repeated || !begins_anew(sample)) return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
     reopen();
