@@ -60,6 +60,15 @@ void SpeedFlag::add_to(CLI::App& command) {
       ->check(check_speed);
 }
 
+void add_unit(CLI::App& command, files::RateUnit& unit) {
+  command
+      .add_option_function<std::string>(
+          "--unit", [&unit](const std::string& text) { unit = *files::rate_unit_of(text); },
+          "Unit of the file: radps (all bits), mradps, dps, mdps, dph [radps]")
+      ->type_name("UNIT")
+      ->check(one_of({"radps", "mradps", "dps", "mdps", "dph"}));
+}
+
 CLI::Validator in_range(double least, double most) {
   const auto check = [least, most](const std::string& text) {
     double value = 0.0;

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "files/rate_unit.hpp"
 #include "files/recording_reader.hpp"
 #include "settings/settings.hpp"
 
@@ -45,6 +46,9 @@ struct SpeedFlag {
 [[nodiscard]] CLI::Validator in_range(double least, double most);
 [[nodiscard]] CLI::Validator sensor_id();
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// Adds --unit, which sets the unit of the angular rates in an output file.
+void add_unit(CLI::App& command, files::RateUnit& unit);
 
 /// Settings of a configuration file, or the defaults where none is named. @throws settings::SettingsError
 [[nodiscard]] settings::Settings load_or_default(const std::string& config);

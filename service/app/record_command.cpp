@@ -160,12 +160,7 @@ void add_options(CLI::App& command, RecordFlags& flags) {
       ->type_name("N")
       ->check(in_range(1.0, 1e15));
   command.add_flag("--until-end", flags.until_end, "End when every sensor that sent has ended");
-  command
-      .add_option_function<std::string>(
-          "--unit", [&flags](const std::string& unit) { flags.unit = *files::rate_unit_of(unit); },
-          "Unit of the file: radps (all bits), mradps, dps, mdps, dph [radps]")
-      ->type_name("UNIT")
-      ->check(one_of({"radps", "mradps", "dps", "mdps", "dph"}));
+  add_unit(command, flags.unit);
   command
       .add_option("--wait", flags.wait_s,
                   "Seconds to wait for a writer of a topic that is not in the configuration [10]")

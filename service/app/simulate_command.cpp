@@ -166,12 +166,7 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
       .add_option("-o,--output", flags.output,
                   "To this file, with the truth, and not to DDS; gzip if it ends in .gz")
       ->type_name("OUT.csv[.gz]");
-  command
-      .add_option_function<std::string>(
-          "--unit", [&flags](const std::string& unit) { flags.unit = *files::rate_unit_of(unit); },
-          "Unit of the file: radps, mradps, dps, mdps, dph [radps]")
-      ->type_name("UNIT")
-      ->check(one_of({"radps", "mradps", "dps", "mdps", "dph"}));
+  add_unit(command, flags.unit);
   command.add_option("--engine-tone", flags.engine_tone_dps, "Amplitude of an engine tone while driving [0]")
       ->type_name("DEG/S")
       ->check(in_range(0.0, 1e3));

@@ -29,7 +29,6 @@ class SensorStates {
   }
 
   [[nodiscard]] bool knows(std::string_view sensor) const { return alive_.contains(sensor); }
-  [[nodiscard]] std::size_t size() const noexcept { return alive_.size(); }
 
   /// The sensors that were shown as not alive since the last call, some possibly several times.
   [[nodiscard]] std::vector<std::string> take_ending() { return std::exchange(ending_, {}); }
