@@ -27,10 +27,11 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// The columns of a file that are neither rate, time nor number.
+/// The columns of a file that are neither rate, time nor number, where they are wanted.
 class OtherColumns {
  public:
-  explicit OtherColumns(const RecordingHeader& header) : separator_(header.separator) {
+  OtherColumns(const RecordingHeader& header, bool wanted) : separator_(header.separator) {
+    if (!wanted) return;
     std::vector<std::string_view> names;
     static_cast<void>(split_row(header.text, header.separator, names));
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -42,6 +43,7 @@ class OtherColumns {
   [[nodiscard]] std::size_t size() const noexcept { return columns_.size(); }
 
   void parse(std::string_view row, std::vector<double>& values) {
+    if (columns_.empty()) return;
     static_cast<void>(split_row(row, separator_, cells_));
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       values[i] = parse_rate(bare(cells_[columns_[i].index])).value_or(kNaN);
@@ -77,7 +79,7 @@ struct Stretch {
   std::uint64_t bridged = 0;
   std::uint64_t missing = 0;
 
-  explicit Stretch(std::size_t other_columns = 0) : others(other_columns) {}
+  explicit Stretch(std::size_t other_columns) : others(other_columns) {}
 
   [[nodiscard]] std::uint64_t measured() const noexcept { return stamp_ns.size() - bridged; }
 
@@ -112,11 +114,11 @@ class Loader {
         options_(options),
         gate_({.sample_rate_hz = reader.stamps_made_up() ? options.sample_rate_hz.value_or(0.0) : 0.0,
                .max_rate_radps = options.max_rate_radps,
-               .max_bridged_samples = options.max_bridged_samples}) {
-    if (options.other_columns) columns_.emplace(reader.header());
-    values_.resize(columns_ ? columns_->size() : 0);
-    now_ = best_ = Stretch(values_.size());
-  }
+               .max_bridged_samples = options.max_bridged_samples}),
+        columns_(reader.header(), options.other_columns),
+        values_(columns_.size()),
+        now_(columns_.size()),
+        best_(columns_.size()) {}
 
   void read_all() {
     RecordingRow row;
@@ -145,7 +147,7 @@ class Loader {
     for (std::size_t i = 0; i < stream::kAxes; ++i) {
       if (record.header.gyro[i]) record.gyro_radps[i] = std::move(best_.rate_radps[i]);
     }
-    if (columns_) record.others = columns_->named(std::move(best_.others));
+    record.others = columns_.named(std::move(best_.others));
     set_rate(record);
     return record;
   }
@@ -162,7 +164,7 @@ class Loader {
       now_.missing += verdict.missing;
       now_.bridge_to(row.sample, verdict.bridge);
     }
-    if (columns_) columns_->parse(row.text, values_);
+    columns_.parse(row.text, values_);
     now_.append(row.sample, values_);
   }
 
@@ -199,7 +201,7 @@ class Loader {
   RecordingReader& reader_;
   const RecordOptions& options_;
   stream::SampleGate gate_;
-  std::optional<OtherColumns> columns_;
+  OtherColumns columns_;
   std::vector<double> values_;  ///< of the other columns, in the row in hand
   Stretch now_;
   Stretch best_;
