@@ -23,6 +23,7 @@ const std::vector<Room>& rooms() {
       {"core/emd", {"core/signal"}, {"Eigen/", "emmintrin.h", "immintrin.h"}},
       {"core/denoise", {"core/signal", "core/emd"}, {"Eigen/"}},
       {"core/simulation", {}, {"Eigen/"}},
+      {"core/allan", {"core/signal"}, {"Eigen/", "unsupported/Eigen/"}},
       {"stream", {"core/"}, {}},
       {"bus", {"core/", "stream"}, {"dds/", "gyrod.h"}},
       {"monitor",
