@@ -30,10 +30,11 @@ struct AllanOptions {
 
 /// The overlapping estimator: with x_k = sum_{n<k} (rate_n - mean) and M = N - 2 m + 1,
 ///   sigma^2(tau = m / rate) = 1 / (2 m^2 M) sum_{k=0}^{M-1} (x_{k+2m} - 2 x_{k+m} + x_k)^2.
-/// Source: IEEE Std 952-1997, annex C; NIST SP 1065, eq. (11), whose x is m times ours over tau.
+/// Source: IEEE Std 952-1997, annex C; NIST SP 1065, chapter 5 (from phase data; its x is ours times 1 / rate).
 ///
 /// The interval: edf sigma^2_estimated / sigma^2_true is taken as chi-squared with edf degrees of freedom, the
-/// edf of the noise type found at that cluster time (degrees_of_freedom.hpp). NIST SP 1065, sections 5.3, 5.4.
+/// edf of the noise type found at that cluster time (degrees_of_freedom.hpp); where fewer than 30 clusters are left
+/// to tell, the type found at the longest time with 30. Source: NIST SP 1065, chapter 5.
 /// It holds for one cluster time, not for the whole curve at once.
 ///
 /// A constant rate has deviation 0 everywhere. Fewer than 3 samples: no points.

@@ -1,7 +1,9 @@
 // The primary fit: non-negative least squares on the variance.
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,9 +17,18 @@ namespace gyrod::core {
 namespace {
 
 constexpr double kMisfit = 0.05;
-constexpr double kSignificant = 3.0;
+constexpr double kSignificant = 2.5;
+constexpr double kFar = 2.0;
 constexpr std::size_t kFewestPoints = 3;
+constexpr unsigned kAllTerms = (1U << kNoiseTerms) - 1U;
 constexpr auto kTerms = static_cast<Eigen::Index>(kNoiseTerms);
+
+/// A bit for each term.
+unsigned mask_of(const std::vector<Eigen::Index>& terms) {
+  unsigned mask = 0;
+  for (const Eigen::Index term : terms) mask |= 1U << term;
+  return mask;
+}
 
 /// The points as the fit sees them.
 struct Curve {
@@ -44,24 +55,24 @@ struct Curve {
   Eigen::MatrixXd basis;   ///< variance_per_square()
 };
 
-/// Squares of the coefficients, and their standard errors.
-struct Squares {
-  Eigen::VectorXd value = Eigen::VectorXd::Zero(kTerms);
-  Eigen::VectorXd error = Eigen::VectorXd::Zero(kTerms);
-};
-
-/// One over the standard deviation of each point where the model is the truth.
-Eigen::VectorXd weights_of(const Curve& curve, const Eigen::VectorXd& model) {
-  return model.cwiseProduct(curve.spread).cwiseInverse();
+/// Distance of the points from the model in their standard deviations.
+Eigen::ArrayXd distances_of(const Curve& curve, const Eigen::VectorXd& model) {
+  return (curve.variance - model).array() / (model.array() * curve.spread.array());
 }
 
+/// What a point counts: 1, and less where it is far from the model. Source: Huber 1964.
+Eigen::ArrayXd trust_in(const Curve& curve, const Eigen::VectorXd& model) {
+  return (kFar / distances_of(curve, model).abs().max(kFar)).sqrt();
+}
+
+/// Q^2 .. R^2, those outside of `allowed` 0.
 Eigen::VectorXd fit_squares(const Curve& curve, unsigned allowed) {
   constexpr int kIterations = 50;
   constexpr double kSettled = 1e-10;
   Eigen::VectorXd model = curve.variance;
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(kTerms);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Eigen::VectorXd weights = weights_of(curve, model);
+    const Eigen::VectorXd weights = trust_in(curve, model) / (model.array() * curve.spread.array());
     squares = nonnegative_least_squares(weights.asDiagonal() * curve.basis,
                                         weights.cwiseProduct(curve.variance), allowed);
     const Eigen::VectorXd next = curve.basis * squares;
@@ -73,9 +84,9 @@ Eigen::VectorXd fit_squares(const Curve& curve, unsigned allowed) {
   return squares;
 }
 
-/// Covariance of the weighted points, diagonal 1: chance by the spectrum of the model; the misfit of neighbours
-/// within about an octave is the same.
-Eigen::MatrixXd weighted_covariance(const Curve& curve, const Eigen::VectorXd& squares) {
+/// Covariance of the points in their standard deviations, diagonal 1: chance by the spectrum of the model; the
+/// misfit of neighbours within about an octave is the same.
+Eigen::MatrixXd covariance_of(const Curve& curve, const Eigen::VectorXd& squares) {
   std::array<double, kNoiseTerms> model{};
   std::copy_n(squares.data(), kNoiseTerms, model.begin());
   Eigen::MatrixXd covariance = point_correlation(curve.points, model);
@@ -91,56 +102,87 @@ Eigen::MatrixXd weighted_covariance(const Curve& curve, const Eigen::VectorXd& s
   return covariance;
 }
 
-/// Standard errors of the squares above 0, by the covariance of the points; wider where the residuals are larger
-/// than that explains.
-Squares with_errors(const Curve& curve, const Eigen::VectorXd& squares) {
-  Squares result{squares, Eigen::VectorXd::Zero(kTerms)};
-  std::vector<Eigen::Index> used;
-  for (Eigen::Index t = 0; t < kTerms; ++t) {
-    if (squares(t) > 0.0) used.push_back(t);
-  }
-  if (used.empty()) return result;
-  const Eigen::VectorXd weights = weights_of(curve, curve.basis * squares);
-  // Unknowns in units of their estimates: columns of comparable size.
-  const Eigen::MatrixXd columns =
-      weights.asDiagonal() * curve.basis(Eigen::all, used) * Eigen::VectorXd(squares(used)).asDiagonal();
+/// Squares by linear least squares on the terms of `used`, and their standard errors.
+struct Estimate {
+  Eigen::VectorXd value = Eigen::VectorXd::Zero(kTerms);
+  Eigen::VectorXd error = Eigen::VectorXd::Zero(kTerms);
+  double widening = 1.0;  ///< residuals over what the points' covariance explains, at least 1
+};
+
+/// @param truth  squares that weights and covariance are made with
+/// @param trust  of the points
+Estimate estimate(const Curve& curve, const std::vector<Eigen::Index>& used, const Eigen::VectorXd& truth,
+                  const Eigen::ArrayXd& trust) {
+  const Eigen::VectorXd model = curve.basis * truth;
+  const Eigen::VectorXd weights = trust / (model.array() * curve.spread.array());
+  const Eigen::MatrixXd weighted = weights.asDiagonal() * curve.basis(Eigen::all, used);
+  const Eigen::VectorXd scale = weighted.colwise().norm().cwiseInverse();
+  const Eigen::MatrixXd columns = weighted * scale.asDiagonal();
   const Eigen::MatrixXd solver = (columns.transpose() * columns).inverse() * columns.transpose();
-  const Eigen::MatrixXd covariance = weighted_covariance(curve, squares);
-  const Eigen::VectorXd residual =
-      weights.cwiseProduct(curve.variance) - columns * Eigen::VectorXd::Ones(columns.cols());
-  const Eigen::MatrixXd left = covariance - columns * (solver * covariance);
-  const double expected = left.trace();
-  const double widening = expected > 0.0 ? std::max(1.0, residual.squaredNorm() / expected) : 1.0;
-  const Eigen::MatrixXd relative = widening * solver * covariance * solver.transpose();
+  const Eigen::MatrixXd covariance =
+      trust.matrix().asDiagonal() * covariance_of(curve, truth) * trust.matrix().asDiagonal();
+  const Eigen::VectorXd value = solver * weights.cwiseProduct(curve.variance);
+  const Eigen::MatrixXd spread = solver * covariance * solver.transpose();
+  Estimate result;
   for (std::size_t i = 0; i < used.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    result.error(used[i]) = squares(used[i]) * std::sqrt(relative(at, at));
+    result.value(used[i]) = value(at) * scale(at);
+    result.error(used[i]) = std::sqrt(spread(at, at)) * scale(at);
   }
+  const double expected = (covariance - columns * (solver * covariance)).trace();
+  const double residual = distances_of(curve, model).abs().min(kFar).square().sum();
+  if (expected > 0.0) result.widening = std::max(1.0, std::sqrt(residual / expected));
   return result;
 }
 
-/// The term with the least value over error; nothing to drop where all are significant.
-int least_significant(const Squares& squares) {
-  int least = -1;
-  double least_ratio = kSignificant;
-  for (int t = 0; t < static_cast<int>(kTerms); ++t) {
-    if (!(squares.value(t) > 0.0)) continue;
-    const double ratio = squares.value(t) / squares.error(t);
-    if (ratio >= least_ratio) continue;
-    least_ratio = ratio;
-    least = t;
+/// A fit on some of the terms.
+struct Fit {
+  Fit(const Curve& curve, unsigned allowed) : squares(fit_squares(curve, allowed)) {
+    for (Eigen::Index t = 0; t < kTerms; ++t) {
+      if (squares(t) > 0.0) used.push_back(t);
+    }
+    if (used.empty()) return;
+    trust = trust_in(curve, curve.basis * squares);
+    errors = estimate(curve, used, squares, trust);
   }
-  return least;
+
+  Eigen::VectorXd squares;
+  std::vector<Eigen::Index> used;
+  Eigen::ArrayXd trust;
+  Estimate errors;
+};
+
+/// How many standard errors a term's square would stand above 0 if the truth were without it (a score test: the
+/// error at the estimate itself grows with the estimate and would hide a term that towers over the rest).
+double significance(const Curve& curve, const Fit& fit, Eigen::Index term) {
+  const Eigen::VectorXd without = fit_squares(curve, mask_of(fit.used) & ~(1U << term));
+  const Estimate test = estimate(curve, fit.used, without, fit.trust);
+  return test.value(term) / (test.error(term) * fit.errors.widening);
 }
 
-/// From a square to the coefficient: d sqrt(s) = ds / (2 sqrt(s)).
-NoiseCoefficients roots_of(const Squares& squares) {
+/// The least significant term; nothing where all of them are significant, or only one is left.
+std::optional<Eigen::Index> weakest_term(const Curve& curve, const Fit& fit) {
+  std::optional<Eigen::Index> weakest;
+  if (fit.used.size() < 2) return weakest;
+  double least = kSignificant;
+  for (const Eigen::Index term : fit.used) {
+    const double ratio = significance(curve, fit, term);
+    if (ratio >= least) continue;
+    least = ratio;
+    weakest = term;
+  }
+  return weakest;
+}
+
+/// From squares to coefficients: d sqrt(s) = ds / (2 sqrt(s)). How far the dropped terms had held a value elsewhere
+/// is part of its error: they may be there all the same.
+NoiseCoefficients roots_of(const Fit& fit, const Fit& with_all_terms) {
   NoiseCoefficients coefficients;
-  for (std::size_t t = 0; t < kNoiseTerms; ++t) {
-    const auto at = static_cast<Eigen::Index>(t);
-    if (!(squares.value(at) > 0.0)) continue;
-    const double value = std::sqrt(squares.value(at));
-    coefficients.terms[t] = {value, squares.error(at) / (2.0 * value), true};
+  for (const Eigen::Index term : fit.used) {
+    const double value = std::sqrt(fit.squares(term));
+    const double chance = fit.errors.error(term) * fit.errors.widening / (2.0 * value);
+    const double shift = std::sqrt(with_all_terms.squares(term)) - value;
+    coefficients.terms[static_cast<std::size_t>(term)] = {value, std::hypot(chance, shift), true};
   }
   return coefficients;
 }
@@ -153,14 +195,12 @@ NoiseCoefficients fit_coefficients(std::span<const AllanPoint> points) {
                        [](const AllanPoint& point) { return point.deviation > 0.0; });
   if (usable.size() < kFewestPoints) return {};
   const Curve curve(std::move(usable));
-  unsigned allowed = (1U << kNoiseTerms) - 1U;
-  while (allowed != 0U) {
-    const Squares squares = with_errors(curve, fit_squares(curve, allowed));
-    const int weakest = least_significant(squares);
-    if (weakest < 0) return roots_of(squares);
-    allowed &= ~(1U << weakest);
+  const Fit with_all_terms(curve, kAllTerms);
+  Fit fit = with_all_terms;
+  while (const auto weakest = weakest_term(curve, fit)) {
+    fit = Fit(curve, mask_of(fit.used) & ~(1U << *weakest));
   }
-  return {};
+  return roots_of(fit, with_all_terms);
 }
 
 }  // namespace gyrod::core

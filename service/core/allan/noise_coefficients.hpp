@@ -52,11 +52,14 @@ struct NoiseCoefficients {
 /// Weights: one over the variance of a point, sigma^4 (2/edf + misfit^2), sigma^2 by the fitted model and found
 /// by iteration (by the measured sigma^2 instead, low points would pull). misfit = 0.05: no sensor follows the
 /// model to better than some per cent, and the short cluster times, known to a tenth of a per cent, would
-/// otherwise rule the fit alone.
+/// otherwise rule the fit alone. Points more than 2 standard deviations off count less (Huber): a line in the
+/// spectrum is a hump in the curve that no term can follow.
+/// Not observable: the term whose square is least significant goes and the rest is fitted again, until all
+/// stand 2.5 standard errors or more above 0, the error being what it would be if the term were not there.
 /// Standard errors: the points of a curve go together; their correlation follows from the spectrum of the
-/// fitted model (point_correlation.hpp). A fit that leaves more than its errors explain has its errors widened.
-/// Not observable: the term whose square is least significant goes, and the rest is fitted again, until
-/// all squares stand 3 of their standard errors or more above 0.
+/// fitted model (point_correlation.hpp). What dropping terms changed counts as error, too, and a fit that
+/// leaves more than its errors explain has them widened.
+/// The constants were chosen on simulated noise (docs/allan.md).
 /// Fewer than 3 points with a deviation above 0: nothing is observable.
 /// @param points from allan_deviation(), ascending in tau_s
 [[nodiscard]] NoiseCoefficients fit_coefficients(std::span<const AllanPoint> points);
