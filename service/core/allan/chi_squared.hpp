@@ -14,6 +14,6 @@ namespace gyrod::core {
 
 /// From here on Wilson and Hilferty (1931) is within 1e-6 relative of the quantile for probabilities of 1e-4 to
 /// 1 - 1e-4, and the series of the incomplete gamma function gets long.
-inline constexpr double kNormalFromDegrees = 2000.0;
+inline constexpr double kNormalFromDegrees = 20'000.0;
 
 }  // namespace gyrod::core

@@ -30,7 +30,7 @@ double transfer(double frequency_hz, double cluster_samples, double interval_s) 
 Eigen::MatrixXd point_correlation(std::span<const AllanPoint> points,
                                   const std::array<double, kNoiseTerms>& squares) {
   assert(!points.empty());
-  constexpr double kStepsPerOctave = 32.0;
+  constexpr double kStepsPerOctave = 64.0;
   const double interval_s = points[0].tau_s / static_cast<double>(points[0].cluster_samples);
   const double record_s = interval_s * static_cast<double>(points[0].terms + 2 * points[0].cluster_samples);
   const double octaves = std::log2(record_s / interval_s);
