@@ -20,5 +20,6 @@ void add_denoise(CLI::App& parser, Action& chosen);
 void add_replay(CLI::App& parser, Action& chosen);
 void add_record(CLI::App& parser, Action& chosen);
 void add_simulate(CLI::App& parser, Action& chosen);
+void add_allan(CLI::App& parser, Action& chosen);
 
 }  // namespace gyrod::app
