@@ -26,7 +26,7 @@ constexpr double kBottom = 58.0;
 
 /// Colours of Okabe and Ito, which colour-blind people can tell apart, lighter in the dark.
 constexpr const char* kStyle = R"(<style>
-svg{background:#fff;font:14px system-ui,sans-serif}
+svg{background:#fff;max-width:100%;height:auto;font:14px system-ui,sans-serif}
 text{fill:#222}.quiet{fill:#555}.title{font-size:17px;font-weight:600}
 .frame{fill:none;stroke:#888}.decade{stroke:#ccc}.minor{stroke:#eee}
 .x{--c:#0072b2}.y{--c:#d55e00}.z{--c:#009e73}
@@ -211,15 +211,21 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// The file's name without its folders, and its beginning where it is long.
+std::string short_name(const std::string& path) {
+  constexpr std::size_t kMost = 44;
+  const std::string name = path.substr(path.find_last_of('/') + 1);
+  return name.size() <= kMost ? name : name.substr(0, kMost - 3) + "...";
+}
+
 std::string panel_svg(const AllanAnalysis& analysis, const Channels& channels, const DeviationUnit& unit,
                       double top) {
   const Panel panel = panel_for(channels, unit, top);
   const bool gyro = channels.front()->sensor == SensorKind::kGyro;
-  std::string svg =
-      fmt::format("<text class=\"title\" x=\"{}\" y=\"{}\">{}</text>\n", kLeft, top + 28.0,
-                  escaped(fmt::format("{}, {}: {} samples at {:.4g} Hz", gyro ? "Gyro" : "Accelerometer",
-                                      analysis.input.substr(analysis.input.find_last_of('/') + 1),
-                                      analysis.samples, analysis.sample_rate_hz)));
+  std::string svg = fmt::format(
+      "<text class=\"title\" x=\"{}\" y=\"{}\">{}</text>\n", kLeft, top + 28.0,
+      escaped(fmt::format("{}, {}: {} samples at {:.4g} Hz", gyro ? "Gyro" : "Accelerometer",
+                          short_name(analysis.input), analysis.samples, analysis.sample_rate_hz)));
   svg += legend(panel, channels, analysis.options.confidence);
   svg += vertical_grid(panel) + horizontal_grid(panel) + frame(panel);
   for (const AllanChannel* channel : channels) svg += curves(panel, *channel);

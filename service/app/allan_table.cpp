@@ -62,13 +62,13 @@ std::string per_sample_line(const AllanChannel& channel, double sample_rate_hz) 
 }
 
 std::string coefficient_lines(const AllanChannel& channel, double sample_rate_hz) {
-  std::string text = fmt::format("\n{}\n  {:<23} {:<23} {:<16} {:<23} {:<14} {:>12} {:>12}\n", channel.name(),
-                                 "coefficient", "least squares +- s.e.", "SI unit", "least squares +- s.e.",
-                                 "unit", "slopes", "polynomial");
+  std::string text =
+      fmt::format("\n{}\n  {:<23} {:<18} {:<16} {:<18} {:<13} {:>10} {:>10}\n", channel.name(), "coefficient",
+                  "least squares", "SI unit", "least squares", "unit", "slopes", "polynomial");
   for (const CoefficientUnit& unit : coefficient_units(channel.sensor)) {
     const double factor = in_sheet_unit(channel.sensor, unit.term, 1.0);
     text += fmt::format(
-        "  {} {:<21} {:<23} {:<16} {:<23} {:<14} {:>12} {:>12}\n", unit.letter, unit.title,
+        "  {} {:<21} {:<18} {:<16} {:<18} {:<13} {:>10} {:>10}\n", unit.letter, unit.title,
         with_error(channel.fit[unit.term], 1.0), unit.si, with_error(channel.fit[unit.term], factor),
         unit.sheet, number(channel.slopes[unit.term], factor), number(channel.polynomial[unit.term], factor));
   }
@@ -102,13 +102,13 @@ std::string deviation_lines(const AllanAnalysis& analysis, SensorKind sensor, fi
   const DeviationUnit unit = deviation_unit(sensor, rate_unit);
   std::string text = fmt::format("\nAllan deviation in {}, with {:.4g} % confidence bounds\n  {:>10}",
                                  unit.title, 100.0 * analysis.options.confidence, "tau s");
-  for (const AllanChannel* channel : shown) text += fmt::format("  {:<31}", channel->name());
-  text += "\n";
+  for (const AllanChannel* channel : shown) text += fmt::format("  {:<33}", channel->name());
+  text = text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
   for (const std::size_t place : decades_of(shown.front()->points)) {
     text += fmt::format("  {:10.4g}", shown.front()->points[place].tau_s);
     for (const AllanChannel* channel : shown) {
       const core::AllanPoint& point = channel->points[place];
-      text += fmt::format("  {:.3e} [{:.2e}, {:.2e}]", point.deviation / unit.si, point.lower / unit.si,
+      text += fmt::format("  {:.3e} [{:.3e}, {:.3e}]", point.deviation / unit.si, point.lower / unit.si,
                           point.upper / unit.si);
     }
     text += "\n";
@@ -124,11 +124,11 @@ bool is_anything_observable(const AllanAnalysis& analysis) {
 
 std::string explanation(const AllanAnalysis& analysis) {
   std::string text =
-      "\nLeast squares is the fit to use. Not observable: this record does not show the term; a longer one "
-      "may.\n"
-      "Slopes and polynomial, in the unit to their left, are for comparison; the polynomial is the usual fit "
-      "of\n"
-      "papers, whose negative values mean nothing. Definitions: docs/allan.md.\n";
+      "\nLeast squares, +- its standard error, is the fit to use. Not observable: the record does not show "
+      "the\n"
+      "term; a longer one may. Slopes and polynomial, in the unit to their left, are for comparison; the\n"
+      "polynomial is the usual fit of papers, whose negative values mean nothing. Definitions: "
+      "docs/allan.md.\n";
   if (!is_anything_observable(analysis)) {
     text += "The record is too short, or does not change at all: there is no coefficient to show.\n";
   }
