@@ -53,11 +53,11 @@ std::string check_axes(std::string& text) {
   for (const char c : text) {
     if (c == ',') continue;
     if (c < 'x' || c > 'z' || axes.find(c) != std::string::npos) {
-      return "--axis is '" + text + "'; expected some of x, y and z, e.g. z or x,y";
+      return "'" + text + "' given; expected some of x, y and z, e.g. z or x,y";
     }
     axes += c;
   }
-  if (axes.empty()) return "--axis is empty; expected some of x, y and z";
+  if (axes.empty()) return "'" + text + "' given; expected some of x, y and z";
   text = axes;
   return {};
 }

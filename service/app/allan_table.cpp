@@ -63,12 +63,12 @@ std::string per_sample_line(const AllanChannel& channel, double sample_rate_hz) 
 
 std::string coefficient_lines(const AllanChannel& channel, double sample_rate_hz) {
   std::string text =
-      fmt::format("\n{}\n  {:<23} {:<18} {:<16} {:<18} {:<13} {:>10} {:>10}\n", channel.name(), "coefficient",
+      fmt::format("\n{}\n  {:<23} {:<20} {:<16} {:<20} {:<13} {:>10} {:>10}\n", channel.name(), "coefficient",
                   "least squares", "SI unit", "least squares", "unit", "slopes", "polynomial");
   for (const CoefficientUnit& unit : coefficient_units(channel.sensor)) {
     const double factor = in_sheet_unit(channel.sensor, unit.term, 1.0);
     text += fmt::format(
-        "  {} {:<21} {:<18} {:<16} {:<18} {:<13} {:>10} {:>10}\n", unit.letter, unit.title,
+        "  {} {:<21} {:<20} {:<16} {:<20} {:<13} {:>10} {:>10}\n", unit.letter, unit.title,
         with_error(channel.fit[unit.term], 1.0), unit.si, with_error(channel.fit[unit.term], factor),
         unit.sheet, number(channel.slopes[unit.term], factor), number(channel.polynomial[unit.term], factor));
   }
@@ -124,11 +124,10 @@ bool is_anything_observable(const AllanAnalysis& analysis) {
 
 std::string explanation(const AllanAnalysis& analysis) {
   std::string text =
-      "\nLeast squares, +- its standard error, is the fit to use. Not observable: the record does not show "
-      "the\n"
-      "term; a longer one may. Slopes and polynomial, in the unit to their left, are for comparison; the\n"
-      "polynomial is the usual fit of papers, whose negative values mean nothing. Definitions: "
-      "docs/allan.md.\n";
+      "\nLeast squares, +- its standard error, is the fit to use. Not observable: the record does not show\n"
+      "the term; a longer one may. Slopes and polynomial, in the unit to their left, are for comparison\n"
+      "(-: not there by this method); the polynomial is the usual fit of papers, and its negative values\n"
+      "mean nothing. Definitions: docs/allan.md.\n";
   if (!is_anything_observable(analysis)) {
     text += "The record is too short, or does not change at all: there is no coefficient to show.\n";
   }
