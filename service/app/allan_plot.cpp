@@ -148,7 +148,7 @@ std::string curves(const Panel& panel, const AllanChannel& channel) {
   for (const core::AllanPoint& point : channel.points) {
     curve += panel.at(point.tau_s, point.deviation);
     band += panel.at(point.tau_s, point.upper);
-    back = panel.at(point.tau_s, point.lower) + back;
+    back.insert(0, panel.at(point.tau_s, point.lower));
     const double model = core::model_deviation(channel.fit, point.tau_s);
     const bool inside = model / panel.unit.si >= std::pow(10.0, panel.deviation.first) &&
                         model / panel.unit.si <= std::pow(10.0, panel.deviation.last);
