@@ -13,9 +13,9 @@ void to_wire(const core::ImfFigures& figures, gyrod_ImfReport& wire) noexcept {
   wire.mean_period_samples = figures.mean_period_samples;
   wire.energy_rad2ps2 = figures.energy;
   wire.excess = figures.excess;
-  const auto order = static_cast<std::uint32_t>(figures.ar_order);
+  const auto order = static_cast<std::uint32_t>(figures.model.ar_order);
   // A C struct has no const pointers; a write only reads through them.
-  wire.ar_coefficients = {order, order, const_cast<double*>(figures.ar_coefficients.data()), false};
+  wire.ar_coefficients = {order, order, const_cast<double*>(figures.model.ar_coefficients.data()), false};
 }
 
 void to_wire(const core::WindowReport& report, std::span<gyrod_ImfReport> imfs,

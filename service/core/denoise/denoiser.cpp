@@ -88,8 +88,10 @@ void Denoiser::model_and_filter(WindowReport& report) noexcept {
 /// Filters one mixed IMF in place; returns the noise variance left in it.
 double Denoiser::filter_mixed(std::span<double> imf, ImfFigures& figures, double noise_variance) noexcept {
   const ArModel model = ar_fitter_.fit(imf);
-  figures.ar_order = model.order;
-  figures.ar_coefficients = model.a;
+  figures.model.family = model.order > 0 ? ModelFamily::kAr : ModelFamily::kNone;
+  figures.model.ar_order = model.order;
+  figures.model.ar_coefficients = model.a;
+  figures.model.innovation_variance = model.innovation_variance;
   if (model.order == 0) return noise_variance;
   // The model was fitted to signal and noise together; the signal's share of the energy is 1 - 1/excess.
   constexpr double kLeastSignalShare = 1e-3;
@@ -100,6 +102,7 @@ double Denoiser::filter_mixed(std::span<double> imf, ImfFigures& figures, double
   const double innovation = std::max(model.innovation_variance * share, kLeastInnovation * figures.energy);
   if (!kalman_.design(model.coefficients(), innovation, noise_variance)) return noise_variance;
   kalman_.filter(imf);
+  figures.model.used = true;
   // Not the filter's own error variance, which takes the noise for white: the noise of an IMF lies in the
   // band of its signal, so the filter lets the same part of both through.
   return noise_variance * std::min(mean_square(imf) / figures.energy, 1.0);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/denoise/ar_kalman.hpp"
 #include "core/denoise/ar_model.hpp"
+#include "core/denoise/scheme.hpp"
 #include "core/denoise/screening.hpp"
 #include "core/denoise/window_report.hpp"
 #include "core/emd/emd.hpp"
@@ -14,7 +16,15 @@
 
 namespace gyrod::core {
 
+/// How the models of mixed IMFs, and of the record in the scheme direct, are chosen.
+enum class ModelChoice : std::uint8_t {
+  kAr,          ///< AR(p), order by BIC, no test of the residuals: quick enough for every window
+  kIdentified,  ///< AR, MA or ARMA by core/denoise/identification.hpp: for whole records
+};
+
 struct DenoiserOptions {
+  Scheme scheme = Scheme::kImproved;
+  ModelChoice models = ModelChoice::kAr;
   EmdOptions emd;
   ScreeningOptions screening;
   /// Largest AR order of a mixed IMF. Unit: count, range 1..kMaxArOrder. Source: the paper's orders are 4 and

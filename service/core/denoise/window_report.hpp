@@ -11,11 +11,41 @@ namespace gyrod::core {
 inline constexpr std::size_t kMaxImfs = 32;
 /// Largest AR order that can be asked for.
 inline constexpr std::size_t kMaxArOrder = 16;
+/// Largest MA order that can be asked for.
+inline constexpr std::size_t kMaxMaOrder = 8;
+
+/// Kind of a time-series model, [Yang2019] Table 2.
+enum class ModelFamily : std::uint8_t {
+  kNone,   ///< no model
+  kWhite,  ///< white noise: p = q = 0
+  kAr,     ///< AR(p)
+  kMa,     ///< MA(q)
+  kArma,   ///< ARMA(p, q)
+};
+
+/// The time-series model of an IMF or of a record,
+///   x[k] = a_1 x[k-1] + ... + a_p x[k-p] + w[k] + b_1 w[k-1] + ... + b_q w[k-q].
+struct ModelFigures {
+  ModelFamily family = ModelFamily::kNone;
+  std::size_t ar_order = 0;
+  std::size_t ma_order = 0;
+  std::array<double, kMaxArOrder> ar_coefficients{};
+  std::array<double, kMaxMaOrder> ma_coefficients{};
+  /// Variance of w, unit^2.
+  double innovation_variance = 0.0;
+  /// Whether the residuals were tested; they are where the family was identified, not on every window.
+  bool tested = false;
+  /// The residuals look white: the Ljung-Box test did not reject it at 5 % (core/denoise/whiteness.hpp).
+  bool adequate = false;
+  double ljung_box_p = 0.0;
+  /// A Kalman filter was made of it and used; false: what it stands for stayed as it was.
+  bool used = false;
+};
 
 /// What an IMF was taken for, [Yang2019] eq. (4).
 enum class ImfClass : std::uint8_t {
   kNoise,   ///< dropped
-  kMixed,   ///< modelled as AR(p) and Kalman filtered
+  kMixed,   ///< modelled and Kalman filtered
   kSignal,  ///< kept
 };
 
@@ -35,10 +65,8 @@ struct ImfFigures {
   /// Energy over that of the channel's white noise in this IMF (the noise line); about 1 is noise. 0 if the
   /// floor is unknown.
   double excess = 0.0;
-  /// Order and coefficients of the AR model x[k] = a_1 x[k-1] + ... + a_p x[k-p] + w[k] (mixed IMFs only,
-  /// else order 0).
-  std::size_t ar_order = 0;
-  std::array<double, kMaxArOrder> ar_coefficients{};
+  /// Mixed IMFs only; else none.
+  ModelFigures model;
 };
 
 /// One axis of one window. Fixed size, so that it is passed around without allocating.
@@ -56,6 +84,8 @@ struct WindowReport {
   double output_noise = 0.0;
   /// Mean of the window, in the input's unit.
   double mean = 0.0;
+  /// Model of the window itself (scheme direct only; else none).
+  ModelFigures direct_model;
   std::array<ImfFigures, kMaxImfs> imf{};
 };
 

@@ -198,10 +198,9 @@ stream::NoiseReport full_report() {
              value + 0.4,
              value + 0.5,
              value + 0.6,
-             core::kMaxArOrder,
-             {}};
+             {.family = core::ModelFamily::kAr, .ar_order = core::kMaxArOrder}};
       for (std::size_t p = 0; p < core::kMaxArOrder; ++p)
-        imf.ar_coefficients[p] = value * static_cast<double>(p + 1);
+        imf.model.ar_coefficients[p] = value * static_cast<double>(p + 1);
     }
   }
   return report;
@@ -215,9 +214,9 @@ void expect_same(const gyrod_ImfReport& wire, const core::ImfFigures& imf) {
   EXPECT_EQ(wire.mean_period_samples, imf.mean_period_samples);
   EXPECT_EQ(wire.energy_rad2ps2, imf.energy);
   EXPECT_EQ(wire.excess, imf.excess);
-  ASSERT_EQ(wire.ar_coefficients._length, imf.ar_order);
-  for (std::size_t p = 0; p < imf.ar_order; ++p)
-    EXPECT_EQ(wire.ar_coefficients._buffer[p], imf.ar_coefficients[p]);
+  ASSERT_EQ(wire.ar_coefficients._length, imf.model.ar_order);
+  for (std::size_t p = 0; p < imf.model.ar_order; ++p)
+    EXPECT_EQ(wire.ar_coefficients._buffer[p], imf.model.ar_coefficients[p]);
 }
 
 void expect_same(const gyrod_AxisReport& wire, const core::WindowReport& window) {

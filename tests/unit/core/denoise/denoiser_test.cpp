@@ -121,7 +121,7 @@ TEST_P(DenoiserRule, GivesFiniteFiguresToFiniteWindows) {
         const core::ImfFigures& imf = report.imf[i];
         EXPECT_TRUE(std::isfinite(imf.pcc + imf.acf_variance + imf.acf_concentration +
                                   imf.mean_period_samples + imf.energy + imf.excess));
-        EXPECT_TRUE(is_finite(imf.ar_coefficients));
+        EXPECT_TRUE(is_finite(imf.model.ar_coefficients));
       }
     }
   }
@@ -136,7 +136,7 @@ TEST_P(DenoiserRule, ReportAgreesWithThePartition) {
     for (std::size_t i = 0; i < report.imf_count; ++i) {
       const bool is_mixed = i >= report.j && i < report.k;
       EXPECT_EQ(report.imf[i].imf_class == ImfClass::kMixed, is_mixed);
-      EXPECT_EQ(report.imf[i].ar_order > 0, is_mixed) << "a model is made of mixed modes only";
+      EXPECT_EQ(report.imf[i].model.ar_order > 0, is_mixed) << "a model is made of mixed modes only";
     }
   }
 }
