@@ -21,7 +21,7 @@ const std::vector<Room>& rooms() {
   static const std::vector<Room> table = {
       {"core/signal", {}, {"Eigen/", "unsupported/Eigen/"}},
       {"core/emd", {"core/signal"}, {"Eigen/", "emmintrin.h", "immintrin.h"}},
-      {"core/denoise", {"core/signal", "core/emd"}, {"Eigen/"}},
+      {"core/denoise", {"core/signal", "core/emd"}, {"Eigen/", "unsupported/Eigen/"}},
       {"core/simulation", {}, {"Eigen/"}},
       {"core/allan", {"core/signal"}, {"Eigen/", "unsupported/Eigen/"}},
       {"stream", {"core/"}, {}},

@@ -54,6 +54,10 @@ bool roots_within(std::span<const double> a, double radius) noexcept {
   return true;
 }
 
+void pull_roots_within(std::span<double> a, double radius) noexcept {
+  scale_roots(a, damping_factor(a, radius));
+}
+
 ArFitter::ArFitter(std::size_t max_samples, std::size_t max_order)
     : max_samples_(std::max(max_samples, kMinSamples)), max_order_(max_order) {
   if (max_order < 1 || max_order > kMaxArOrder) {
@@ -80,7 +84,7 @@ ArModel ArFitter::fit(std::span<const double> x) noexcept {
   model.innovation_variance = residual_sum(qr, model.order) / static_cast<double>(qr.rows);
   model.status = ArStatus::kFitted;
   if (!roots_within(model.coefficients(), ArModel::kMaxRootRadius)) {
-    scale_roots({model.a.data(), model.order}, damping_factor(model.coefficients(), ArModel::kMaxRootRadius));
+    pull_roots_within({model.a.data(), model.order}, ArModel::kMaxRootRadius);
     model.status = ArStatus::kDamped;
   }
   return model;

@@ -38,6 +38,11 @@ struct ArModel {
 /// @pre a.size() <= kMaxArOrder
 [[nodiscard]] bool roots_within(std::span<const double> a, double radius) noexcept;
 
+/// Pulls every root of z^p - a_1 z^(p-1) - ... - a_p towards 0 by one factor, a_i <- a_i f^i: the largest f in (0, 1), to one part in
+/// 2^30, that brings all of them within the radius.
+/// @pre a.size() <= kMaxArOrder, radius > 0
+void pull_roots_within(std::span<double> a, double radius) noexcept;
+
 /// Fits AR models to series of up to max_samples. Sizes its workspace once; fit() allocates nothing. Not
 /// thread-safe.
 ///
