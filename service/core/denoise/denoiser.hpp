@@ -2,38 +2,30 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
-#include <vector>
 
-#include "core/denoise/ar_kalman.hpp"
-#include "core/denoise/ar_model.hpp"
+#include "core/denoise/decomposition.hpp"
+#include "core/denoise/model_filter.hpp"
 #include "core/denoise/scheme.hpp"
 #include "core/denoise/screening.hpp"
 #include "core/denoise/window_report.hpp"
 #include "core/emd/emd.hpp"
-#include "core/signal/autocorrelation.hpp"
 
 namespace gyrod::core {
 
-/// How the models of mixed IMFs, and of the record in the scheme direct, are chosen.
-enum class ModelChoice : std::uint8_t {
-  kAr,          ///< AR(p), order by BIC, no test of the residuals: quick enough for every window
-  kIdentified,  ///< AR, MA or ARMA by core/denoise/identification.hpp: for whole records
-};
-
 struct DenoiserOptions {
+  /// What is done; the others are what the paper compares its own with.
   Scheme scheme = Scheme::kImproved;
-  ModelChoice models = ModelChoice::kAr;
   EmdOptions emd;
   ScreeningOptions screening;
-  /// Largest AR order of a mixed IMF. Unit: count, range 1..kMaxArOrder. Source: the paper's orders are 4 and
-  /// 6 (Table 4).
+  /// How models of mixed IMFs are chosen, and that of the window in the scheme direct.
+  ModelChoice models = ModelChoice::kAr;
+  /// Largest AR order. Unit: count, range 1..kMaxArOrder. Source: the paper's orders are 4 and 6 (Table 4).
   std::size_t max_ar_order = 6;
 };
 
-/// Denoises one window (or record) at a time. Sizes its workspace once; denoise() allocates nothing and is a
-/// pure function of its input: same window, same bits. Not thread-safe; one object per worker.
+/// Denoises one window at a time, or one record: that is a window as long as the record. Sizes its workspace once; denoise() allocates
+/// nothing and is a pure function of its input: same window, same bits. Not thread-safe; one object per worker.
 class Denoiser {
  public:
   /// Shortest window that is decomposed.
@@ -45,29 +37,26 @@ class Denoiser {
 
   /// @param window uniformly sampled, finite, any unit
   /// @param out    the denoised window, may not overlap `window`
-  /// @param report the figures behind the result
+  /// @param report the figures behind the result; the scheme raw finds out nothing but the mean, and direct no IMFs
   /// @pre kMinSamples <= window.size() <= max_samples, out.size() == window.size()
   void denoise(std::span<const double> window, std::span<double> out, WindowReport& report) noexcept;
 
  private:
-  void decompose(std::span<const double> window, WindowReport& report) noexcept;
-  void screen(std::span<const double> window, WindowReport& report) noexcept;
-  void model_and_filter(WindowReport& report) noexcept;
-  void reconstruct(const WindowReport& report, std::span<double> out) const noexcept;
-
-  [[nodiscard]] double filter_mixed(std::span<double> imf, ImfFigures& figures,
-                                    double noise_variance) noexcept;
-  [[nodiscard]] std::span<double> imf(std::size_t index, std::size_t samples) noexcept;
-  [[nodiscard]] std::span<const double> imf(std::size_t index, std::size_t samples) const noexcept;
+  void filter_directly(std::span<const double> window, std::span<double> out, WindowReport& report) noexcept;
+  void filter_mixed(WindowReport& report) noexcept;
 
   DenoiserOptions options_;
   std::size_t max_samples_;
-  Emd emd_;
-  Autocorrelation autocorrelation_;
-  ArFitter ar_fitter_;
-  ArKalman kalman_;
-  std::vector<double> imfs_;       ///< max_imfs + 1 rows of max_samples
-  std::vector<double> reference_;  ///< what the PCC is taken against
+  Decomposition decomposition_;
+  ModelFilter model_filter_;
 };
+
+/// First IMF, counted from 0, that a scheme keeps after decomposing. @pre scheme is kEmd, kAcfEmd or kImproved
+[[nodiscard]] std::size_t first_kept(Scheme scheme, const WindowReport& report) noexcept;
+
+/// What the Kalman filter of mixed IMF number `index` (0 for the fastest) is told, and what of the record itself in the scheme direct.
+/// @pre report.noise_floor and, for an IMF, its figures are set
+[[nodiscard]] FilterNoise filter_noise_of_imf(const WindowReport& report, std::size_t index) noexcept;
+[[nodiscard]] FilterNoise filter_noise_of_record(const WindowReport& report, double energy) noexcept;
 
 }  // namespace gyrod::core
