@@ -26,7 +26,7 @@ bool ArmaKalman::design(const ArmaModel& model, double driving_variance, double 
   space.h.setZero(m);
   space.h(0) = 1.0;
   space.r = 1.0;
-  if (!solve_riccati(space, covariance_)) return false;
+  if (!solve_riccati_precisely(space, covariance_)) return false;
 
   const double s = covariance_(0, 0) + 1.0;
   gain_ = covariance_.col(0) / s;

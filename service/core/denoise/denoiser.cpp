@@ -12,10 +12,9 @@ namespace {
 
 /// Noise variance left in a series after its filter. Not the filter's own error variance, which takes the noise for white: the noise of
 /// an IMF lies in the band of its signal, so the filter lets the same part of both through.
-double noise_left(std::span<const double> filtered, const ModelFigures& model,
-                  const FilterNoise& noise) noexcept {
-  if (!model.used) return noise.noise_variance;
-  return noise.noise_variance * std::min(mean_square(filtered) / noise.energy, 1.0);
+double noise_left(std::span<const double> filtered, double energy, double noise_variance,
+                  bool used) noexcept {
+  return used ? noise_variance * std::min(mean_square(filtered) / energy, 1.0) : noise_variance;
 }
 
 }  // namespace
@@ -37,8 +36,14 @@ void Denoiser::denoise(std::span<const double> window, std::span<double> out, Wi
   }
   if (options_.scheme == Scheme::kDirect) {
     filter_directly(window, out, report);
-    return;
+  } else {
+    decompose_and_filter(window, out, report);
   }
+  if (options_.keep_mean) give_mean(report.mean, out);
+}
+
+void Denoiser::decompose_and_filter(std::span<const double> window, std::span<double> out,
+                                    WindowReport& report) noexcept {
   decomposition_.take_apart(window, report);  // eqs. (1) to (4)
   const std::size_t first = first_kept(options_.scheme, report);
   if (options_.scheme == Scheme::kImproved) {
@@ -56,7 +61,8 @@ void Denoiser::filter_directly(std::span<const double> window, std::span<double>
   std::ranges::transform(window, out.begin(), [&report](double value) { return value - report.mean; });
   const FilterNoise noise = filter_noise_of_record(report, variance(out));
   report.direct_model = model_filter_.filter(out, noise);
-  report.output_noise = std::sqrt(noise_left(out, report.direct_model, noise));
+  report.output_noise =
+      std::sqrt(noise_left(out, noise.energy, noise.noise_variance, report.direct_model.used));
   if (report.direct_model.used) {
     for (double& value : out) value += report.mean;
   } else {
@@ -68,9 +74,10 @@ void Denoiser::filter_mixed(WindowReport& report) noexcept {
   const double noise_variance = report.noise_floor * report.noise_floor;
   double passed = noise_variance * noise_line_rest(report.k + 1);
   for (std::size_t i = report.j; i < report.k; ++i) {
-    const FilterNoise noise = filter_noise_of_imf(report, i);
+    const FilterNoise noise = filter_noise_of_imf(report, i, options_.models);
     report.imf[i].model = model_filter_.filter(decomposition_.imf(i), noise);
-    passed += noise_left(decomposition_.imf(i), report.imf[i].model, noise);
+    passed += noise_left(decomposition_.imf(i), noise.energy, noise_variance * noise_line_energy(i + 1),
+                         report.imf[i].model.used);
   }
   report.output_noise = std::sqrt(passed);
 }
@@ -80,17 +87,26 @@ std::size_t first_kept(Scheme scheme, const WindowReport& report) noexcept {
   return scheme == Scheme::kAcfEmd ? report.k : report.j;
 }
 
-FilterNoise filter_noise_of_imf(const WindowReport& report, std::size_t index) noexcept {
+FilterNoise filter_noise_of_imf(const WindowReport& report, std::size_t index, ModelChoice models) noexcept {
   // The model was fitted to signal and noise together; the signal's share of the energy is 1 - 1/excess.
   constexpr double kLeastSignalShare = 1e-3;
   const ImfFigures& figures = report.imf[index];
+  // An IMF's noise fills the IMF's band as densely as the record's white noise fills all bands. The filter takes R for white: to have
+  // the right density in the band, R is the white noise's whole variance. Windows keep the variance that falls into the IMF, which
+  // filters less: of few samples the signal's share is not known well enough (docs/method.md).
+  const double white = report.noise_floor * report.noise_floor;
   return {.energy = figures.energy,
-          .noise_variance = report.noise_floor * report.noise_floor * noise_line_energy(index + 1),
+          .noise_variance = models == ModelChoice::kIdentified ? white : white * noise_line_energy(index + 1),
           .signal_share = std::max(1.0 - 1.0 / std::max(figures.excess, 1.0), kLeastSignalShare)};
 }
 
 FilterNoise filter_noise_of_record(const WindowReport& report, double energy) noexcept {
   return {.energy = energy, .noise_variance = report.noise_floor * report.noise_floor, .signal_share = 1.0};
+}
+
+void give_mean(double mean, std::span<double> out) noexcept {
+  const double shift = mean - core::mean(out);
+  for (double& value : out) value += shift;
 }
 
 }  // namespace gyrod::core

@@ -22,6 +22,8 @@ struct DenoiserOptions {
   ModelChoice models = ModelChoice::kAr;
   /// Largest AR order. Unit: count, range 1..kMaxArOrder. Source: the paper's orders are 4 and 6 (Table 4).
   std::size_t max_ar_order = 6;
+  /// Give the output the input's mean. IMFs of a long record have means of their own, of the size of its mean's standard error.
+  bool keep_mean = false;
 };
 
 /// Denoises one window at a time, or one record: that is a window as long as the record. Sizes its workspace once; denoise() allocates
@@ -43,6 +45,8 @@ class Denoiser {
 
  private:
   void filter_directly(std::span<const double> window, std::span<double> out, WindowReport& report) noexcept;
+  void decompose_and_filter(std::span<const double> window, std::span<double> out,
+                            WindowReport& report) noexcept;
   void filter_mixed(WindowReport& report) noexcept;
 
   DenoiserOptions options_;
@@ -56,7 +60,11 @@ class Denoiser {
 
 /// What the Kalman filter of mixed IMF number `index` (0 for the fastest) is told, and what of the record itself in the scheme direct.
 /// @pre report.noise_floor and, for an IMF, its figures are set
-[[nodiscard]] FilterNoise filter_noise_of_imf(const WindowReport& report, std::size_t index) noexcept;
+[[nodiscard]] FilterNoise filter_noise_of_imf(const WindowReport& report, std::size_t index,
+                                              ModelChoice models) noexcept;
 [[nodiscard]] FilterNoise filter_noise_of_record(const WindowReport& report, double energy) noexcept;
+
+/// Shifts `out` to this mean.
+void give_mean(double mean, std::span<double> out) noexcept;
 
 }  // namespace gyrod::core

@@ -5,13 +5,9 @@
 namespace gyrod::core {
 namespace {
 
-/// q of the Kalman filter.
-double driving_variance(double innovation_variance, const FilterNoise& noise) noexcept {
-  // A spline is so smooth that its AR model predicts it to 1e-17, which no gain can be computed from, nor
-  // believed.
-  constexpr double kLeastInnovation = 1e-7;
-  return std::max(innovation_variance * noise.signal_share, kLeastInnovation * noise.energy);
-}
+/// A spline is so smooth that its AR model predicts it to 1e-17, which no gain can be computed from, nor believed: the least innovation
+/// variance, in parts of the energy.
+constexpr double kBelievedInnovation = 1e-7;
 
 ModelFigures figures_of(const Identification& found) noexcept {
   ModelFigures figures;
@@ -49,8 +45,9 @@ ModelFigures ModelFilter::filter_ar(std::span<double> series, const FilterNoise&
   figures.innovation_variance = model.innovation_variance;
   if (model.order == 0) return figures;
   figures.family = ModelFamily::kAr;
-  figures.used = ar_kalman_.design(model.coefficients(), driving_variance(model.innovation_variance, noise),
-                                   noise.noise_variance);
+  const double driving =
+      std::max(model.innovation_variance * noise.signal_share, kBelievedInnovation * noise.energy);
+  figures.used = ar_kalman_.design(model.coefficients(), driving, noise.noise_variance);
   if (figures.used) ar_kalman_.filter(series);
   return figures;
 }
@@ -60,8 +57,15 @@ ModelFigures ModelFilter::filter_identified(std::span<double> series, const Filt
   const ArmaModel& model = identification_.model;
   ModelFigures figures = figures_of(identification_);
   if (figures.family == ModelFamily::kNone) return figures;
-  figures.used =
-      arma_kalman_.design(model, driving_variance(model.innovation_variance, noise), noise.noise_variance);
+  // The slowest modes have an innovation variance that not even extended precision finds a gain for. One that is larger gives a wider
+  // filter, which lets more noise through and no signal less.
+  constexpr double kRaise = 10.0;
+  const double most = std::max(kBelievedInnovation * noise.energy, model.innovation_variance);
+  for (double driving = model.innovation_variance * noise.signal_share; driving <= most && !figures.used;
+       driving *= kRaise) {
+    figures.used = arma_kalman_.design(model, driving, noise.noise_variance);
+    if (!(driving > 0.0)) break;
+  }
   if (figures.used) arma_kalman_.filter(series);
   return figures;
 }

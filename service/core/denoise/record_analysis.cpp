@@ -33,8 +33,8 @@ void filter_directly(std::span<const double> record, ModelFilter& filter, Record
 /// Scheme 3, which changes the decomposition's mixed IMFs: last.
 void filter_mixed(Decomposition& decomposition, ModelFilter& filter, RecordAnalysis& analysis) {
   for (std::size_t i = analysis.report.j; i < analysis.report.k; ++i) {
-    analysis.report.imf[i].model =
-        filter.filter(decomposition.imf(i), filter_noise_of_imf(analysis.report, i));
+    analysis.report.imf[i].model = filter.filter(
+        decomposition.imf(i), filter_noise_of_imf(analysis.report, i, ModelChoice::kIdentified));
     analysis.mixed.push_back(filter.identification());
   }
 }
@@ -44,6 +44,7 @@ void filter_mixed(Decomposition& decomposition, ModelFilter& filter, RecordAnaly
 DenoiserOptions whole_record_options(DenoiserOptions options) {
   options.screening.rule = ScreeningRule::kPaper;
   options.models = ModelChoice::kIdentified;
+  options.keep_mean = true;
   return options;
 }
 
@@ -71,6 +72,9 @@ RecordAnalysis analyse_record(std::span<const double> record, const DenoiserOpti
     Samples& out = output(analysis, scheme);
     out.resize(record.size());
     decomposition.reconstruct(first_kept(scheme, report), report.imf_count, out);
+  }
+  for (const Scheme scheme : kAllSchemes) {
+    if (options.keep_mean && scheme != Scheme::kRaw) give_mean(report.mean, output(analysis, scheme));
   }
   return analysis;
 }

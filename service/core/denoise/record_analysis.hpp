@@ -31,7 +31,7 @@ struct RecordAnalysis {
   }
 };
 
-/// What the paper does with a whole record: its screening rule to the letter, models identified.
+/// What the paper does with a whole record: its screening rule to the letter, models identified, the mean kept.
 [[nodiscard]] DenoiserOptions whole_record_options(DenoiserOptions options = {});
 
 /// Decomposes completely, screens, identifies the model of every mixed IMF and of the record, and makes all schemes' outputs.

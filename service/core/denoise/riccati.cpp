@@ -11,12 +11,15 @@ namespace {
 template <class Matrix, class Vector>
 class Doubling {
  public:
-  explicit Doubling(const StateSpace& model) : A_(model.A), Q_(model.Q), h_(model.h), r_(model.r) {}
+  using Scalar = typename Matrix::Scalar;
+
+  explicit Doubling(const StateSpace& model)
+      : A_(model.A.cast<Scalar>()), Q_(model.Q.cast<Scalar>()), h_(model.h.cast<Scalar>()), r_(model.r) {}
 
   [[nodiscard]] bool solve(StateMatrix& answer) noexcept {
     // 2^40 samples: longer than any mode within ArModel::kMaxRootRadius remembers.
     constexpr int kMaxDoublings = 40;
-    constexpr double kSettled = 1e-14;
+    constexpr Scalar kSettled = 1e-14;
     const Matrix identity = Matrix::Identity(A_.rows(), A_.cols());
     Matrix a = A_.transpose();
     Matrix G = h_ * h_.transpose() / r_;
@@ -28,14 +31,14 @@ class Doubling {
       const Matrix W_G = lu.solve(G);
       const Matrix growth = W_a.transpose() * X * a;
       X += growth;
-      X = (0.5 * (X + X.transpose())).eval();
+      X = (Scalar(0.5) * (X + X.transpose())).eval();
       if (!X.allFinite()) return false;
       if (growth.norm() <= kSettled * X.norm()) {
-        answer = X;
+        answer = X.template cast<double>();
         return solves(X);
       }
       G += a * W_G * a.transpose();
-      G = (0.5 * (G + G.transpose())).eval();
+      G = (Scalar(0.5) * (G + G.transpose())).eval();
       a = (a * W_a).eval();
     }
     return false;
@@ -44,13 +47,13 @@ class Doubling {
  private:
   /// Substitutes the answer back.
   [[nodiscard]] bool solves(const Matrix& X) const noexcept {
-    constexpr double kTolerance = 1e-6;
+    constexpr Scalar kTolerance = 1e-6;
     return (riccati_step(X) - X).norm() <= kTolerance * X.norm();
   }
 
   /// One step of the Riccati recursion, in Joseph form: symmetric and positive whatever the rounding.
   [[nodiscard]] Matrix riccati_step(const Matrix& X) const noexcept {
-    const double s = h_.dot(X * h_) + r_;
+    const Scalar s = h_.dot(X * h_) + r_;
     const Vector gain = X * h_ / s;
     const Matrix keep = Matrix::Identity(X.rows(), X.cols()) - gain * h_.transpose();
     const Matrix filtered = keep * X * keep.transpose() + r_ * gain * gain.transpose();
@@ -60,7 +63,7 @@ class Doubling {
   Matrix A_;
   Matrix Q_;
   Vector h_;
-  double r_;
+  Scalar r_;
 };
 
 template <int kSize>
@@ -86,6 +89,13 @@ bool solve_riccati(const StateSpace& model, StateMatrix& X) noexcept {
     default:
       return Doubling<StateMatrix, StateVector>(model).solve(X);
   }
+}
+
+bool solve_riccati_precisely(const StateSpace& model, StateMatrix& X) noexcept {
+  assert(model.r > 0.0);
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxArOrder, kMaxArOrder>;
+  using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1, 0, kMaxArOrder, 1>;
+  return Doubling<Matrix, Vector>(model).solve(X);
 }
 
 }  // namespace gyrod::core

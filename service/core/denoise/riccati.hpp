@@ -29,4 +29,8 @@ struct StateSpace {
 /// Riccati equations".
 [[nodiscard]] bool solve_riccati(const StateSpace& model, StateMatrix& X) noexcept;
 
+/// The same in extended precision, where the compiler has it, and slower: for modes so slow and smooth that a step of theirs is 1e-10
+/// of their size.
+[[nodiscard]] bool solve_riccati_precisely(const StateSpace& model, StateMatrix& X) noexcept;
+
 }  // namespace gyrod::core
