@@ -2,15 +2,19 @@
 #include <memory>
 #include <optional>
 
+#include "app/batch_denoiser.hpp"
 #include "app/command.hpp"
 #include "app/denoise_summary.hpp"
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
 #include "app/offline_denoiser.hpp"
+#include "app/options.hpp"
 #include "app/progress_bar.hpp"
+#include "core/denoise/record_analysis.hpp"
 #include "files/output_file.hpp"
 #include "files/recording_reader.hpp"
 #include "files/recording_writer.hpp"
+#include "settings/enum_names.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -20,6 +24,10 @@ struct DenoiseFlags {
   std::string output;
   std::string config;
   std::string summary;
+  std::string scheme;     ///< empty: as configured
+  std::string screening;  ///< empty: as configured; for a whole record the paper's
+  bool batch = false;
+  std::string models;  ///< empty: identified
   RecordingFlags recording;
 };
 
@@ -38,7 +46,8 @@ class RowsToFile final : public RowHandler {
 };
 
 /// @return false if it was interrupted
-bool denoise_rows(files::RecordingReader& reader, OfflineDenoiser& denoiser, Interrupt& interrupt) {
+template <class Denoiser>
+bool denoise_rows(files::RecordingReader& reader, Denoiser& denoiser, Interrupt& interrupt) {
   constexpr std::uint64_t kLookUpEvery = 256;  // a few windows: well under a tenth of a second
   ProgressBar progress("denoising");
   files::RecordingRow row;
@@ -50,7 +59,7 @@ bool denoise_rows(files::RecordingReader& reader, OfflineDenoiser& denoiser, Int
   }
   if (interrupt.requested()) return false;  // the end may have come because of the same Ctrl-C
   denoiser.finish();
-  return true;
+  return !interrupt.requested();
 }
 
 void tell(const DenoiseFlags& flags, const stream::Counts& counts, std::uint64_t broken_rows) {
@@ -69,15 +78,57 @@ void tell(const DenoiseFlags& flags, const stream::Counts& counts, std::uint64_t
   note(broken_rows, "broken rows left out");
 }
 
-const char* name_of(settings::Screening screening) noexcept {
-  return screening == settings::Screening::kPaper ? "paper" : "windowed";
+/// What is to be done: the configuration with the flags on top.
+struct Plan {
+  settings::Settings settings;
+  bool whole_record = false;
+  core::DenoiserOptions options;  ///< of a whole record
+};
+
+/// @throws settings::SettingsError
+Plan plan_of(const DenoiseFlags& flags) {
+  Plan plan{load_or_default(flags.config), flags.batch, {}};
+  settings::DenoiseSettings& denoise = plan.settings.denoise;
+  if (!flags.scheme.empty()) denoise.scheme = *core::scheme_of(flags.scheme);
+  const bool paper = flags.screening == "paper" || (flags.batch && flags.screening.empty());
+  if (paper) denoise.screening = settings::Screening::kPaper;
+  if (flags.screening == "windowed") denoise.screening = settings::Screening::kWindowed;
+  plan.options = core::whole_record_options(denoiser_options(denoise));
+  plan.options.screening.rule = denoiser_options(denoise).screening.rule;
+  if (flags.models == "ar") plan.options.models = core::ModelChoice::kAr;
+  return plan;
+}
+
+/// @return what became of the samples, or nothing if it was interrupted
+std::optional<stream::Counts> denoise_all(files::RecordingReader& reader, RowHandler& rows,
+                                          DenoiseSummary& summary, const Plan& plan, Interrupt& interrupt) {
+  if (plan.whole_record) {
+    BatchDenoiser denoiser(plan.settings, plan.options, rows, summary);
+    if (!denoise_rows(reader, denoiser, interrupt)) return std::nullopt;
+    return denoiser.counts();
+  }
+  OfflineDenoiser denoiser(plan.settings, rows, summary);
+  if (!denoise_rows(reader, denoiser, interrupt)) return std::nullopt;
+  return denoiser.counts();
+}
+
+DenoiseSummary::Source source_of(const DenoiseFlags& flags, const Plan& plan, std::uint64_t broken_rows) {
+  const bool ar = !plan.whole_record || plan.options.models == core::ModelChoice::kAr;
+  return {.input = flags.input,
+          .output = flags.output,
+          .method = "paper",
+          .scheme = std::string(core::name_of(plan.settings.denoise.scheme)),
+          .whole_record = plan.whole_record,
+          .screening = std::string(settings::name_of(plan.settings.denoise.screening)),
+          .models = ar ? "ar" : "identified",
+          .broken_rows = broken_rows};
 }
 
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   // Reading from a terminal or a pipe can wait for ever.
   if (flags.input == "-") interrupt.let_through();
   if (flags.summary == flags.output) throw CLI::ValidationError("--summary", "is the same file as --output");
-  const settings::Settings settings = load_or_default(flags.config);
+  const Plan plan = plan_of(flags);
   files::RecordingReader reader(flags.input, flags.recording.options);
   files::RecordingWriter writer(flags.output, reader.header());
   std::optional<files::OutputFile> summary_file;
@@ -85,24 +136,18 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
 
   RowsToFile rows(writer);
   DenoiseSummary summary;
-  OfflineDenoiser denoiser(settings, rows, summary);
-  if (!denoise_rows(reader, denoiser, interrupt)) {
+  const auto counts = denoise_all(reader, rows, summary, plan, interrupt);
+  if (!counts) {
     std::fprintf(stderr, "gyrod: interrupted\n");
     return kInterrupted;
   }
 
   writer.close();
-  const stream::Counts counts = denoiser.counts();
   if (summary_file) {
-    summary_file->write(summary.json({.input = flags.input,
-                                      .output = flags.output,
-                                      .method = "paper",
-                                      .screening = name_of(settings.denoise.screening),
-                                      .broken_rows = reader.broken_rows()},
-                                     counts));
+    summary_file->write(summary.json(source_of(flags, plan, reader.broken_rows()), *counts));
     summary_file->close();
   }
-  tell(flags, counts, reader.broken_rows());
+  tell(flags, *counts, reader.broken_rows());
   return kDone;
 }
 
@@ -123,6 +168,24 @@ void add_denoise(CLI::App& parser, Action& chosen) {
       ->type_name("FILE");
   command->add_option("--summary", flags->summary, "Write counts and noise figures as JSON")
       ->type_name("FILE.json");
+  command
+      ->add_option("--scheme", flags->scheme,
+                   "raw, direct, emd, acf-emd or improved: see below [as configured, else improved]")
+      ->type_name("NAME")
+      ->check(one_of({core::kSchemeNames.begin(), core::kSchemeNames.end()}));
+  command
+      ->add_option("--screening", flags->screening,
+                   "windowed or paper [as configured, else windowed; with --batch paper]")
+      ->type_name("RULE")
+      ->check(one_of({"windowed", "paper"}));
+  CLI::Option* batch = command->add_flag("--batch", flags->batch,
+                                         "The whole record at once, as the paper does, not in windows");
+  command
+      ->add_option("--models", flags->models,
+                   "With --batch: identified (AR, MA or ARMA) or ar, as in windows [identified]")
+      ->type_name("KIND")
+      ->check(one_of({"identified", "ar"}))
+      ->needs(batch);
   flags->recording.add_to(*command);
   command->footer(
       "The output has the input's columns, names and units; only the angular rates change. Columns:\n"
@@ -131,10 +194,18 @@ void add_denoise(CLI::App& parser, Action& chosen) {
       "  sample or sequence                      number of the sample; without it rows are counted\n"
       "  anything else                           passes through\n"
       "Samples that are refused (nan, out of range, duplicate, ...) stay as they are and are counted.\n"
-      "The result is the daemon's for the same samples, bit for bit. OUT appears when it is complete.\n\n"
+      "Without --batch the result is the daemon's for the same samples, bit for bit. OUT appears when it is "
+      "complete.\n\n"
+      "Schemes:\n"
+      "  raw       nothing is changed\n"
+      "  direct    time-series model and Kalman filter on the record itself\n"
+      "  emd       decomposed, noise modes dropped\n"
+      "  acf-emd   decomposed, noise and mixed modes dropped\n"
+      "  improved  decomposed, noise modes dropped, mixed ones modelled and filtered: the method itself\n\n"
       "Examples:\n"
       "  gyrod denoise drive.csv -o denoised.csv\n"
-      "  gyrod denoise drive.csv.gz -o denoised.csv.gz --summary summary.json");
+      "  gyrod denoise drive.csv.gz -o denoised.csv.gz --summary summary.json\n"
+      "  gyrod denoise still.csv -o direct.csv --batch --scheme direct");
   command->callback(
       [&chosen, flags] { chosen = [flags](Interrupt& interrupt) { return denoise(*flags, interrupt); }; });
 }

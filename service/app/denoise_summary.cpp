@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/analysis_json.hpp"
 #include "app/version.hpp"
 
 namespace gyrod::app {
@@ -29,6 +30,7 @@ void DenoiseSummary::add(const std::array<double, stream::kAxes>& measured_radps
 
 void DenoiseSummary::add(const stream::NoiseReport& report) {
   sample_rate_hz_ = report.sample_rate_hz;
+  if (report.axis[0].window_samples > longest_[0].window_samples) longest_ = report.axis;
   for (std::size_t i = 0; i < stream::kAxes; ++i) {
     const core::WindowReport& window = report.axis[i];
     axes_[i].noise_floor.add(window.noise_floor);
@@ -57,12 +59,18 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                        {"mean_imfs", axis.imfs.mean()},
                        {"mean_j", axis.j.mean()},
                        {"mean_k", axis.k.mean()}};
+    if (!source.whole_record) continue;
+    axes[kNames[i]]["direct_model"] = model_json(longest_[i].direct_model);
+    axes[kNames[i]]["imfs"] = imfs_json(longest_[i]);
   }
   const nlohmann::ordered_json summary = {{"gyrod_version", version()},
                                           {"input", source.input},
                                           {"output", source.output},
                                           {"method", source.method},
+                                          {"scheme", source.scheme},
+                                          {"mode", source.whole_record ? "batch" : "windowed"},
                                           {"screening", source.screening},
+                                          {"models", source.models},
                                           {"sample_rate_hz", sample_rate_hz_},
                                           {"samples",
                                            {{"received", counts.received},

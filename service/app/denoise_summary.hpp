@@ -35,11 +35,14 @@ class DenoiseSummary {
     std::string input;
     std::string output;
     std::string method;
+    std::string scheme;
+    bool whole_record = false;
     std::string screening;
+    std::string models;
     std::uint64_t broken_rows = 0;
   };
 
-  /// JSON, with the unit in every key that has one.
+  /// JSON, with the unit in every key that has one. Of a whole record it holds each axis's IMFs and models (of the longest stretch).
   [[nodiscard]] std::string json(const Source& source, const stream::Counts& counts) const;
 
  private:
@@ -54,6 +57,7 @@ class DenoiseSummary {
   };
 
   std::array<Axis, stream::kAxes> axes_;
+  std::array<core::WindowReport, stream::kAxes> longest_;  ///< reports of the first of the longest windows
   double sample_rate_hz_ = 0.0;
 };
 

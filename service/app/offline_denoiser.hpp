@@ -10,21 +10,12 @@
 #include <vector>
 
 #include "app/denoise_summary.hpp"
+#include "app/row_handler.hpp"
 #include "files/recording_reader.hpp"
 #include "settings/settings.hpp"
 #include "stream/engine.hpp"
 
 namespace gyrod::app {
-
-/// Where denoised rows go, in the order of the recording.
-class RowHandler {
- public:
-  virtual ~RowHandler() = default;
-  virtual void on_denoised(const std::string& row_text,
-                           const std::array<double, stream::kAxes>& rate_radps) = 0;
-  /// The engine refused the row's sample.
-  virtual void on_refused(const std::string& row_text) = 0;
-};
 
 /// Runs the rows of one sensor through an engine without workers. Its clock stands still, so that overload
 /// does not exist here and the result depends on the rows alone: it is what the daemon publishes for them,

@@ -53,6 +53,7 @@ stream::EngineOptions offline_engine_options(const settings::Settings& settings)
 
 core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings) {
   core::DenoiserOptions options;
+  options.scheme = settings.scheme;
   options.emd.sifts = settings.sifts;
   options.emd.boundary = settings.boundary;
   options.screening.rule = settings.screening == settings::Screening::kPaper ? core::ScreeningRule::kPaper

@@ -27,6 +27,7 @@ void visit_bus(BusSettings& bus, Visit& visit) {
 template <class Visit>
 void visit_algorithm(Settings& settings, Visit& visit) {
   visit("denoise.method", settings.denoise.method);
+  visit("denoise.scheme", settings.denoise.scheme);
   visit("denoise.screening", settings.denoise.screening);
   visit("denoise.window_samples", settings.engine.window_samples);
   visit("denoise.hop_samples", settings.engine.hop_samples);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/denoise/scheme.hpp"
 #include "core/emd/emd.hpp"
 #include "stream/engine.hpp"
 
@@ -54,6 +55,7 @@ struct BusSettings {
 /// `Settings::engine`.
 struct DenoiseSettings {
   Method method = Method::kPaper;
+  core::Scheme scheme = core::Scheme::kImproved;
   Screening screening = Screening::kWindowed;
   int sifts = 10;
   core::BoundaryRule boundary = core::BoundaryRule::kMirror;
