@@ -17,6 +17,7 @@ using Action = std::function<int(Interrupt&)>;
 void add_run(CLI::App& parser, Action& chosen);
 void add_validate(CLI::App& parser, Action& chosen);
 void add_denoise(CLI::App& parser, Action& chosen);
+void add_decompose(CLI::App& parser, Action& chosen);
 void add_replay(CLI::App& parser, Action& chosen);
 void add_record(CLI::App& parser, Action& chosen);
 void add_simulate(CLI::App& parser, Action& chosen);
