@@ -9,6 +9,26 @@ namespace {
 
 using namespace testing;
 
+TEST(DenoiserAllocation, SchemesAndIdentifiedModelsAllocateNothing) {
+  if (!counts_allocations()) {
+    GTEST_SKIP() << "the sanitizer brings its own heap";
+  }
+  const Signal window = sum(white_noise(1024, 1), tone(1024, 0.003), 0.5);
+  Signal out(1024);
+  core::WindowReport report;
+  for (const auto scheme : core::kAllSchemes) {
+    core::DenoiserOptions options;
+    options.scheme = scheme;
+    options.models = core::ModelChoice::kIdentified;
+    options.keep_mean = true;
+    core::Denoiser denoiser(1024, options);
+    const std::uint64_t before = allocations();
+    denoiser.denoise(window, out, report);
+    EXPECT_EQ(allocations(), before) << core::name_of(scheme);
+  }
+  EXPECT_TRUE(report.imf[report.j].model.used) << "an identified model was among what ran";
+}
+
 TEST(DenoiserAllocation, DenoisingAllocatesNothing) {
   if (!counts_allocations()) {
     GTEST_SKIP() << "the sanitizer brings its own heap";
