@@ -1,0 +1,134 @@
+// A record in memory against the engine row by row, and against the denoiser on the whole.
+#include "app/record_denoiser.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/batch_denoiser.hpp"
+#include "app/offline_denoiser.hpp"
+#include "app/options.hpp"
+#include "core/denoise/record_analysis.hpp"
+#include "support/signals.hpp"
+
+namespace gyrod {
+namespace {
+
+using core::Scheme;
+using namespace testing;
+
+constexpr std::int64_t kPeriodNs = 10'000'000;
+
+/// A slow swing in noise, rad/s; y is missing where asked.
+files::Record record_of(std::size_t size, bool with_y = true) {
+  files::Record record;
+  record.sample_rate_hz = 100.0;
+  for (std::size_t n = 0; n < size; ++n) record.time_s.push_back(0.01 * static_cast<double>(n));
+  for (unsigned axis = 0; axis < stream::kAxes; ++axis) {
+    if (axis == 1 && !with_y) continue;
+    record.gyro_radps[axis] = sum(times(tone(size, 0.003), 0.1), white_noise(size, axis + 1), 0.006);
+  }
+  return record;
+}
+
+struct Rows final : app::RowHandler {
+  void on_denoised(const std::string& text, const std::array<double, stream::kAxes>& rates) override {
+    texts.push_back(text);
+    x.push_back(rates[0]);
+  }
+  void on_refused(const std::string& text) override { texts.push_back("refused " + text); }
+  std::vector<std::string> texts;
+  Signal x;
+};
+
+files::RecordingRow row_of(const files::Record& record, std::size_t n) {
+  files::RecordingRow row;
+  row.text = "row " + std::to_string(n);
+  row.sample.sequence = n;
+  row.sample.stamp_ns = static_cast<std::int64_t>(n) * kPeriodNs;
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis)
+    row.sample.rate_radps[axis] = record.gyro_radps[axis][n];
+  return row;
+}
+
+template <class Denoiser>
+void push_all(Denoiser& denoiser, const files::Record& record) {
+  for (std::size_t n = 0; n < record.size(); ++n) {
+    files::RecordingRow row = row_of(record, n);
+    denoiser.push(row);
+  }
+  denoiser.finish();
+}
+
+TEST(DenoiseRecord, WindowedIsWhatTheOfflineDenoiserGives) {
+  const files::Record record = record_of(3000);
+  for (const Scheme scheme : core::kAllSchemes) {
+    settings::Settings settings;
+    settings.denoise.scheme = scheme;
+    Rows rows;
+    app::DenoiseSummary summary;
+    app::OfflineDenoiser denoiser(settings, rows, summary);
+    push_all(denoiser, record);
+    EXPECT_EQ(app::denoise_record(record, {}, scheme, false)[0], rows.x) << core::name_of(scheme);
+  }
+}
+
+TEST(DenoiseRecord, WholeIsWhatTheDenoiserGivesForOneWindow) {
+  const files::Record record = record_of(5000);
+  for (const Scheme scheme : core::kAllSchemes) {
+    core::DenoiserOptions options = core::whole_record_options(app::denoiser_options({}));
+    options.scheme = scheme;
+    Signal expected(record.size());
+    core::WindowReport report;
+    core::Denoiser(record.size(), options).denoise(record.gyro_radps[2], expected, report);
+    EXPECT_EQ(app::denoise_record(record, {}, scheme, true)[2], expected) << core::name_of(scheme);
+  }
+}
+
+TEST(DenoiseRecord, LeavesAMissingAxisEmptyAndAShortRecordAsItIs) {
+  for (const bool whole : {false, true}) {
+    const auto denoised = app::denoise_record(record_of(2000, false), {}, Scheme::kImproved, whole);
+    EXPECT_EQ(denoised[0].size(), 2000U);
+    EXPECT_TRUE(denoised[1].empty());
+    const files::Record shortest = record_of(9);
+    EXPECT_EQ(app::denoise_record(shortest, {}, Scheme::kImproved, whole), shortest.gyro_radps);
+  }
+}
+
+// Rows 100 and 4000 are refused, 200 to 204 and 2000 to 2999 are not there: two stretches, the first with a bridge of 5 and a refused
+// row among its samples.
+TEST(BatchDenoiser, KeepsEveryRowInOrderAndStretchesApart) {
+  const files::Record record = record_of(5000);
+  Rows rows;
+  app::DenoiseSummary summary;
+  core::DenoiserOptions options = core::whole_record_options();
+  app::BatchDenoiser denoiser({}, options, rows, summary);
+  std::vector<std::string> expected;
+  for (std::size_t n = 0; n < record.size(); ++n) {
+    if ((n >= 200 && n < 205) || (n >= 2000 && n < 3000)) continue;
+    files::RecordingRow row = row_of(record, n);
+    const bool bad = n == 100 || n == 4000;
+    if (bad) row.sample.rate_radps[1] = std::nan("");
+    expected.push_back((bad ? "refused " : "") + row.text);
+    denoiser.push(row);
+  }
+  denoiser.finish();
+  EXPECT_EQ(rows.texts, expected);
+  const stream::Counts& counts = denoiser.counts();
+  EXPECT_EQ(counts.received, 3995U);
+  EXPECT_EQ(counts.rejected_total(), 2U);
+  EXPECT_EQ(counts.published, 3993U);
+  EXPECT_EQ(counts.bridged, 7U) << "5 missing and 2 refused";
+  EXPECT_EQ(counts.gaps, 1U);
+  EXPECT_EQ(counts.windows, 2U);
+
+  // The second stretch by itself, with its refused sample bridged.
+  Signal second(record.gyro_radps[0].begin() + 3000, record.gyro_radps[0].end());
+  second[1000] = 0.5 * (second[999] + second[1001]);
+  Signal out(second.size());
+  core::WindowReport report;
+  core::Denoiser(second.size(), options).denoise(second, out, report);
+  out.erase(out.begin() + 1000);
+  EXPECT_EQ(Signal(rows.x.end() - 1999, rows.x.end()), out);
+}
+
+}  // namespace
+}  // namespace gyrod
