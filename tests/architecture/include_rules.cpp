@@ -24,6 +24,7 @@ const std::vector<Room>& rooms() {
       {"core/denoise", {"core/signal", "core/emd"}, {"Eigen/", "unsupported/Eigen/"}},
       {"core/simulation", {}, {"Eigen/"}},
       {"core/allan", {"core/signal"}, {"Eigen/", "unsupported/Eigen/"}},
+      {"core/inertial", {}, {"Eigen/"}},
       {"stream", {"core/"}, {}},
       {"bus", {"core/", "stream"}, {"dds/", "gyrod.h"}},
       {"monitor",
