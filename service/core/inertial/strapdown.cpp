@@ -18,10 +18,16 @@ Surroundings surroundings(const GeodeticPosition& position, const Eigen::Vector3
   return {earth + transport, gravity - (2.0 * earth + transport).cross(velocity_mps)};
 }
 
+/// dv + dtheta x (dtheta x dv) / 6: the next term of the turning body axes after those in the increment.
+Eigen::Vector3d turned_velocity(const BodyIncrement& increment) noexcept {
+  const Eigen::Vector3d& turn = increment.rotation_rad;
+  return increment.velocity_mps + turn.cross(turn.cross(increment.velocity_mps)) / 6.0;
+}
+
 Eigen::Vector3d next_velocity(const NavigationState& state, const BodyIncrement& increment, double dt_s,
                               const Surroundings& around) noexcept {
   const Eigen::Quaterniond half_turn = quaternion_of(-0.5 * dt_s * around.frame_rate_radps);
-  return state.velocity_mps + half_turn * (state.attitude * increment.velocity_mps) +
+  return state.velocity_mps + half_turn * (state.attitude * turned_velocity(increment)) +
          dt_s * around.acceleration_mps2;
 }
 

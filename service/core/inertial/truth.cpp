@@ -65,9 +65,10 @@ std::vector<Eigen::Vector3d> differentiated(std::span<const double> time_s,
     while (right + 1 < known.size() && time_s[known[right]] < t + half_width_s) ++right;
     const double before = t - time_s[known[left]];
     const double behind = time_s[known[right]] - t;
-    const bool near =
-        before >= half_width_s && behind >= half_width_s && std::max(before, behind) <= max_gap_s;
-    if (near) velocity[known[k]] = way_m(position[known[left]], position[known[right]]) / (before + behind);
+    if (before < half_width_s || behind < half_width_s || std::max(before, behind) > max_gap_s) continue;
+    const Eigen::Vector3d slope_before = way_m(position[known[left]], position[known[k]]) / before;
+    const Eigen::Vector3d slope_behind = way_m(position[known[k]], position[known[right]]) / behind;
+    velocity[known[k]] = (behind * slope_before + before * slope_behind) / (before + behind);
   }
   return velocity;
 }

@@ -44,9 +44,9 @@ struct Truth {
 /// is that element.
 [[nodiscard]] NavigationState truth_at(const Truth& truth, double time_s, double max_gap_s) noexcept;
 
-/// Velocity by differences of position: (p(t2) - p(t1)) / (t2 - t1), t1 and t2 the nearest known elements at
-/// least half_width_s before and after t. NaN where one is missing, or further away than max_gap_s, or where
-/// p(t) itself is NaN. A curve of jerk j is off by j half_width_s^2 / 6.
+/// Velocity by differences of position: slope at t of the parabola through p(t) and its nearest known neighbours at
+/// least half_width_s before and after. NaN where one is missing, or further away than max_gap_s, or where p(t)
+/// itself is NaN. Where the acceleration changes by j per second it is off by j half_width_s^2 / 6.
 [[nodiscard]] std::vector<Eigen::Vector3d> differentiated(std::span<const double> time_s,
                                                           std::span<const GeodeticPosition> position,
                                                           double half_width_s, double max_gap_s);
