@@ -50,17 +50,22 @@ struct NavigationTruth {
   bool velocity_differentiated = false;
   /// Rows left out since they repeat the one before: the reference is slower than the recording.
   std::size_t held = 0;
+  /// Between elements further apart than this nothing is interpolated or differentiated, s: ten times their mean
+  /// distance, within kShortestTruthGap_s and kLongestTruthGap_s.
+  double max_gap_s = 0.0;
 };
 
 /// Half width of the differences that make a velocity of positions, s; see core::differentiated().
 inline constexpr double kVelocityHalfWidth_s = 0.02;
-/// A truth with gaps longer than this is not interpolated across them, s: above the period of a 1 Hz receiver.
-inline constexpr double kLongestTruthGap_s = 1.5;
+inline constexpr double kShortestTruthGap_s = 0.1;
+inline constexpr double kLongestTruthGap_s = 3.0;
 
 /// The reference in the record's own columns.
 /// @param prefix    of its columns; nothing: the only one there is
 /// @param reference where a level frame's origin is
 /// @return nothing if no prefix is asked for and there is no reference
+/// A reference with positions only, most of which repeat the row before, is one that is slower than the recording:
+/// only the first row of each repetition counts.
 /// @throws FileError if there is none with this prefix (names those found), or several and none is asked for
 [[nodiscard]] std::optional<NavigationTruth> truth_columns(const Record& record,
                                                            const std::optional<std::string>& prefix,

@@ -49,6 +49,20 @@ NavigationState truth_at(const Truth& truth, double time_s, double max_gap_s) no
   return interpolated(state_of(truth, right - 1), state_of(truth, right), share);
 }
 
+std::pair<std::size_t, std::size_t> elements_within(const Truth& truth, double from_s, double to_s) noexcept {
+  const std::span<const double> times(truth.time_s);
+  return {index_of(std::upper_bound(times.begin(), times.end(), from_s), times),
+          index_of(std::upper_bound(times.begin(), times.end(), to_s), times)};
+}
+
+NavigationState state_at(std::span<const double> time_s, std::span<const NavigationState> states,
+                         double time) noexcept {
+  const std::size_t right = index_of(std::lower_bound(time_s.begin(), time_s.end(), time), time_s);
+  if (time_s[right] == time) return states[right];
+  const double share = (time - time_s[right - 1]) / (time_s[right] - time_s[right - 1]);
+  return interpolated(states[right - 1], states[right], share);
+}
+
 std::vector<Eigen::Vector3d> differentiated(std::span<const double> time_s,
                                             std::span<const GeodeticPosition> position, double half_width_s,
                                             double max_gap_s) {

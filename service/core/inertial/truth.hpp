@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,6 +44,15 @@ struct Truth {
 /// element, where a neighbour is NaN, and where they are more than max_gap_s apart. At an element's own time it
 /// is that element.
 [[nodiscard]] NavigationState truth_at(const Truth& truth, double time_s, double max_gap_s) noexcept;
+
+/// Elements with from_s < time <= to_s: first and one past the last.
+[[nodiscard]] std::pair<std::size_t, std::size_t> elements_within(const Truth& truth, double from_s,
+                                                                  double to_s) noexcept;
+
+/// The state of a series at any time within it, along a straight line between its two neighbours.
+/// @pre states.size() == time_s.size(), not empty; time_s.front() <= time <= time_s.back()
+[[nodiscard]] NavigationState state_at(std::span<const double> time_s,
+                                       std::span<const NavigationState> states, double time) noexcept;
 
 /// Velocity by differences of position: slope at t of the parabola through p(t) and its nearest known neighbours at
 /// least half_width_s before and after. NaN where one is missing, or further away than max_gap_s, or where p(t)
