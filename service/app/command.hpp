@@ -22,5 +22,6 @@ void add_replay(CLI::App& parser, Action& chosen);
 void add_record(CLI::App& parser, Action& chosen);
 void add_simulate(CLI::App& parser, Action& chosen);
 void add_allan(CLI::App& parser, Action& chosen);
+void add_navigate(CLI::App& parser, Action& chosen);
 
 }  // namespace gyrod::app

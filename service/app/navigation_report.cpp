@@ -1,5 +1,6 @@
 #include "app/navigation_report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -72,6 +73,14 @@ void add_table(std::ostringstream& out, const NavigationResult& result, const Qu
   for (const NavigationRunResult& run : result.runs)
     add_row(out, &run == &result.runs.front() ? quantity.total_name : "", label_of(run),
             run.pooled.*quantity.total);
+}
+
+/// Roll or heading errors far beyond the angle between the attitudes come from the Euler angles, not from the solution.
+bool euler_misleads(const NavigationResult& result) {
+  return std::ranges::any_of(result.runs, [](const NavigationRunResult& run) {
+    const double whole = run.pooled.total_rotation_deg.max_abs;
+    return std::max(run.pooled.euler_deg[0].max_abs, run.pooled.euler_deg[2].max_abs) > 2.0 * whole;
+  });
 }
 
 std::uint64_t sum_of(const NavigationResult& result, std::size_t NavigationStart::*count) {
@@ -181,6 +190,8 @@ std::string navigation_text(const files::Record& record, const NavigationResult&
     } else {
       out << "\n" << quantity->title << ": the truth does not know it\n";
     }
+    if (quantity == &kAttitude && result.has_attitude && euler_misleads(result))
+      out << "  Near pitch +-90 deg roll and heading say little; go by the whole angle.\n";
   }
   add_starts(out, result);
   return out.str();

@@ -106,7 +106,7 @@ std::string StartFinder::reason(Verdict verdict) const {
       return "the truth (" + truth_->source + ") does not know the state there or anywhere after it";
     case Verdict::kMoving:
       return "the truth (" + truth_->source + ") has no attitude, and shows motion in the " +
-             seconds(rules_.level_s) + " that roll and pitch would come from (--level-seconds)";
+             seconds(rules_.level_s) + " that roll and pitch would come from; try a shorter --level-seconds";
   }
   return {};
 }
