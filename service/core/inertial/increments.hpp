@@ -36,7 +36,8 @@ struct BodyIncrement {
 ///   alpha = dt (w0 + w1)/2,  v = dt (f0 + f1)/2,
 ///   rotation = alpha + dt^2/12 w0 x w1,                                          coning, [Savage] part 1 (33)
 ///   velocity = v + alpha x v / 2 + dt^2/12 (w0 x f1 + f0 x w1).                  sculling, [Savage] part 2
-/// Exact to second order in dt.
+/// On straight lines the rotation is exact to third order in dt, the velocity but for dtheta x (dtheta x dv) / 6, which
+/// strapdown_step() adds.
 /// @pre dt_s > 0
 [[nodiscard]] BodyIncrement increment_between(const InertialSample& from, const InertialSample& to,
                                               double dt_s) noexcept;
