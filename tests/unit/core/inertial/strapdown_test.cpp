@@ -8,6 +8,7 @@
 
 #include "core/inertial/alignment.hpp"
 #include "core/inertial/trajectory_error.hpp"
+#include "support/allocation_counter.hpp"
 #include "support/exact_motion.hpp"
 
 namespace gyrod::core {
@@ -154,6 +155,15 @@ TEST(Strapdown, KeepsTheQuaternionAtLengthOne) {
   const BodyIncrement spinning{{0.3, -0.2, 0.5}, {0.0, 0.0, -0.1}};
   for (int n = 0; n < 100'000; ++n) state = strapdown_step(state, spinning, 0.01);
   EXPECT_NEAR(state.attitude.norm(), 1.0, 1e-15);
+}
+
+TEST(Strapdown, AllocatesNothing) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "a sanitizer has the heap";
+  NavigationState state;
+  const InertialSample sample{{0.3, -0.2, 0.5}, {0.1, 0.2, -9.8}};
+  const std::uint64_t before = testing::allocations();
+  for (int n = 0; n < 100; ++n) state = strapdown_step(state, increment_between(sample, sample, 0.01), 0.01);
+  EXPECT_EQ(testing::allocations(), before);
 }
 
 TEST(Strapdown, InterpolatesBetweenTwoStates) {
