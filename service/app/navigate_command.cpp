@@ -163,6 +163,7 @@ void add_input(CLI::App& command, NavigateFlags& flags) {
                   "raw, direct, emd, acf-emd, improved, separated by commas [raw,acf-emd,improved]")
       ->type_name("LIST")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(one_of({"raw", "direct", "emd", "acf-emd", "improved"}));
   command.add_flag("--whole-record", flags.whole_record,
                    "Denoise the record in one piece, as the paper does, not by windows");
@@ -196,7 +197,8 @@ void add_start(CLI::App& command, NavigateFlags& flags) {
                     .add_option("--start", options.starts_s,
                                 "Start times, s since the recording's first sample, separated by commas")
                     ->type_name("S,...")
-                    ->delimiter(',');
+                    ->delimiter(',')
+                    ->allow_extra_args(false);
   command
       .add_option("--starts", options.start_count,
                   "Number of starts, spread evenly over the times where one is possible [5]")
@@ -256,7 +258,9 @@ void add_navigate(CLI::App& parser, Action& chosen) {
       "  Pvn_mps, Pve_mps, Pvd_mps|vu_mps            velocity\n"
       "Rows named 'SCHEME, N late' use the denoised rates as if they were current. Denoising takes off white "
       "noise,\n"
-      "which integration averages out anyway: expect small differences (docs/navigation.md).\n\n"
+      "which integration averages out anyway: expect little gain, and loss where a scheme takes motion for "
+      "noise\n"
+      "(docs/navigation.md).\n\n"
       "Examples:\n"
       "  gyrod navigate static.csv --rate 100 --still\n"
       "  gyrod navigate handheld.csv.gz --truth gt --starts 5 --json errors.json\n"

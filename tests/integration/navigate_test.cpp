@@ -224,6 +224,14 @@ TEST_F(Navigate, TruthInAFileHasItsOwnTimes) {
   EXPECT_FALSE(pooled.contains("position_m"));
 }
 
+TEST_F(Navigate, ListsAreTakenWithCommasOrOneByOneAndLeaveTheFileAlone) {
+  write_file("in.csv", Recording{}.text());
+  const Result result = run({"navigate", "--schemes", "raw", "--duration", "5", "--start", "1,2.5", "--start",
+                             "4", path("in.csv"), "--json", path("out.json")});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  EXPECT_EQ(json::parse(read_file("out.json"))["starts"].size(), 3U);
+}
+
 TEST_F(Navigate, WritesTheErrorsSampleBySample) {
   const json all = figures({}, {"--schemes", "raw", "--start", "2", "--csv", path("errors.csv")});
   const auto rows = columns_of(path("errors.csv"), {"scheme", "start_s"});
