@@ -99,8 +99,8 @@ TEST_P(MatchedArmaFilter, LeavesWhiteInnovationsAndTheErrorItSays) {
   EXPECT_GT(core::test_whiteness(acf, kSize, 0).p_value, 1e-3);
 }
 
-// A slow, smooth mode: a double pole pair of period 400 samples, seen in noise 1e13 times its driving variance. In double precision the
-// equation is not solved.
+// A slow, smooth mode: a double pole pair of period 400 samples, seen in noise 1e13 times its driving variance. In double
+// precision the gain comes out as 0.
 TEST(ArmaKalman, IsFoundForAModeAsSmoothAsASpline) {
   const double radius = 0.998;
   const double c = 2.0 * radius * std::cos(2.0 * std::numbers::pi / 400.0);
