@@ -21,6 +21,7 @@ void add_decompose(CLI::App& parser, Action& chosen);
 void add_replay(CLI::App& parser, Action& chosen);
 void add_record(CLI::App& parser, Action& chosen);
 void add_simulate(CLI::App& parser, Action& chosen);
+void add_report(CLI::App& parser, Action& chosen);
 void add_allan(CLI::App& parser, Action& chosen);
 void add_navigate(CLI::App& parser, Action& chosen);
 

@@ -32,8 +32,10 @@ const std::vector<Room>& rooms() {
        {"prometheus/", "httplib.h", "netdb.h", "netinet/", "poll.h", "sys/", "unistd.h"}},
       {"settings", {"core/", "stream"}, {"nlohmann/", "valijson/"}},
       {"files", {"core/", "stream"}, {"zlib.h", "fcntl.h", "sys/", "unistd.h"}},
+      {"web", {}, {}},
+      {"report", {"core/", "web"}, {"nlohmann/"}},
       {"app",
-       {"core/", "stream", "bus", "monitor", "settings", "files"},
+       {"core/", "stream", "bus", "monitor", "settings", "files", "web", "report"},
        {"CLI/", "Eigen/", "nlohmann/", "spdlog/", "systemd/", "sys/", "unistd.h"}}};
   return table;
 }

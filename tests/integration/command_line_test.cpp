@@ -52,7 +52,8 @@ TEST_F(CommandLine, WrongUsageIsExitCode2) {
 
 TEST_F(CommandLine, HelpAndVersionAreExitCode0) {
   EXPECT_THAT(run({"--version"}).out, HasSubstr("gyrod 0."));
-  for (const std::string command : {"run", "validate", "denoise", "replay", "record", "simulate"}) {
+  for (const std::string command : {"run", "validate", "denoise", "decompose", "allan", "navigate", "report",
+                                    "replay", "record", "simulate"}) {
     const Result help = run({command, "--help"});
     EXPECT_EQ(help.exit_code, ExitCode::kDone);
     EXPECT_THAT(help.out, HasSubstr("gyrod " + command)) << "help shows an example";

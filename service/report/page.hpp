@@ -1,0 +1,17 @@
+/// The report as one HTML page that needs nothing else: no network, no second file.
+#pragma once
+
+#include <string>
+
+#include "report/json.hpp"
+
+namespace gyrod::report {
+
+/// Puts the data, scripts and styles into the page's template. A Content-Security-Policy lets the browser run and apply just those,
+/// by hash, and load nothing at all. Whatever text the title or the data hold stays text.
+[[nodiscard]] std::string report_page(const std::string& title, const Json& data);
+
+/// & < > " ' as character references.
+[[nodiscard]] std::string escape_html(std::string_view text);
+
+}  // namespace gyrod::report

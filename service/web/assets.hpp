@@ -1,0 +1,20 @@
+/// Scripts, styles and templates of gyrod's pages, built into the binary: pages load nothing from anywhere.
+///
+///     uplot.js, uplot.css, uplot.license   the plotting library, from npm, version pinned in package-lock.json
+///     page.css, charts.js                  look and chart helpers that all pages share
+///     report.html, report.css, report_figures.js, report.js   the report page (service/report)
+#pragma once
+
+#include <string_view>
+
+namespace gyrod::web {
+
+/// The text of a file, UTF-8. Reentrant; lives as long as the program.
+/// @pre name is one of those above
+[[nodiscard]] std::string_view asset(std::string_view name) noexcept;
+
+/// Its hash as a Content-Security-Policy names it, "sha256-...", for the text exactly as asset() gives it.
+/// @pre name is one of those above
+[[nodiscard]] std::string_view asset_hash(std::string_view name) noexcept;
+
+}  // namespace gyrod::web
