@@ -109,7 +109,7 @@ Json words_of(const NavigationResult& result, bool at_rest) {
     lost += start.lost;
   }
   words.push_back(starts +
-                  "), with every scheme's rates at their own stamps: no lag. The tables pool all starts.");
+                  " s, with every scheme's rates at their own stamps: no lag. The tables pool all starts.");
   if (at_rest) words.push_back("The sensor lies still, and that is the truth: all that moves is error.");
   if (lost > 0) {
     words.push_back(std::to_string(lost) +

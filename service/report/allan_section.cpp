@@ -84,9 +84,10 @@ Json chosen_row(Scheme scheme, const std::vector<core::AllanPoint>& points) {
 
 void add_words(const AxisInput& input, Json& section) {
   section["words"] =
-      "The five terms describe a sensor's raw noise. On the output of a filter Q and N are what the fit "
-      "makes of a curve that the "
-      "filter has bent at short cluster times, not noise densities.";
+      "The five terms describe a sensor's raw noise. On the output of a filter, Q, N and the slope method's "
+      "R "
+      "are what is made of a curve that the filter has bent at short cluster times, not properties of the "
+      "sensor.";
   if (input.still) {
     section["paper"] = paper_table6();
   } else {

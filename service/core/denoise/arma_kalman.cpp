@@ -1,8 +1,11 @@
 #include "core/denoise/arma_kalman.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+
+#include <Eigen/Cholesky>
 
 namespace gyrod::core {
 
@@ -10,7 +13,6 @@ bool ArmaKalman::design(const ArmaModel& model, double driving_variance, double 
   static_assert(kMaxMaOrder + 1 <= kMaxArOrder);
   if (!(driving_variance > 0.0) || !(noise_variance > 0.0)) return false;
   const auto m = static_cast<Eigen::Index>(std::max(model.p, model.q + 1));
-  p_ = model.p;
   a_.setZero(m);
   StateVector g = StateVector::Zero(m);
   g(0) = 1.0;
@@ -35,35 +37,50 @@ bool ArmaKalman::design(const ArmaModel& model, double driving_variance, double 
   return gain_.allFinite() && std::isfinite(innovation_variance_);
 }
 
-/// The state after p samples without noise: x_i = sum_(l >= i) a_l s[k-1-(l-i)] for i = 2..m, x_1 = s[k].
-void ArmaKalman::start(std::span<const double> measured) noexcept {
+double ArmaKalman::step(StateVector& state, double measured) const noexcept {
   const Eigen::Index m = gain_.size();
-  const auto count = static_cast<Eigen::Index>(measured.size());
-  state_.setZero(m);
-  if (count == 0) return;
-  const auto before = [&](Eigen::Index age) {
-    return age < count ? measured[static_cast<std::size_t>(count - 1 - age)] : 0.0;
-  };
-  state_(0) = before(0);
+  const double newest = state(0);
+  const double prediction = a_(0) * newest + (m > 1 ? state(1) : 0.0);
+  const double innovation = measured - prediction;
   for (Eigen::Index i = 1; i < m; ++i) {
-    for (Eigen::Index l = i; l < m; ++l) state_(i) += a_(l) * before(1 + l - i);
+    const double shifted = i + 1 < m ? state(i + 1) : 0.0;
+    state(i) = a_(i) * newest + shifted + gain_(i) * innovation;
   }
+  state(0) = prediction + gain_(0) * innovation;
+  return innovation;
+}
+
+/// The filter is linear: its innovations from a start x are those from 0 on z, plus sum_i x_i times those from the unit vector e_i on
+/// zeros. Normal equations of that regression, in long double since slow modes look alike for a while.
+StateVector ArmaKalman::fitted_start(std::span<const double> z) const noexcept {
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxArOrder, kMaxArOrder>;
+  using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1, 0, kMaxArOrder, 1>;
+  constexpr long double kRidge = 1e-15L;  // of the trace: keeps a start that no innovation shows at 0
+  const Eigen::Index m = gain_.size();
+  StateVector from_zero = StateVector::Zero(m);
+  std::array<StateVector, kMaxArOrder> from_unit;
+  for (Eigen::Index i = 0; i < m; ++i) from_unit[static_cast<std::size_t>(i)] = StateVector::Unit(m, i);
+  Matrix squares = Matrix::Zero(m, m);
+  Vector products = Vector::Zero(m);
+  Vector response = Vector::Zero(m);
+  for (const double measured : z.first(std::min(z.size(), kStartSamples))) {
+    const double innovation = step(from_zero, measured);
+    for (Eigen::Index i = 0; i < m; ++i) response(i) = step(from_unit[static_cast<std::size_t>(i)], 0.0);
+    squares += response * response.transpose();
+    products -= innovation * response;
+  }
+  const long double trace = squares.trace();
+  if (!(trace > 0.0L) || !std::isfinite(trace)) return StateVector::Zero(m);
+  squares.diagonal().array() += kRidge * trace;
+  const StateVector start = squares.ldlt().solve(products).template cast<double>();
+  return start.allFinite() ? start : StateVector::Zero(m);
 }
 
 void ArmaKalman::filter(std::span<double> z) noexcept {
-  const Eigen::Index m = gain_.size();
-  const std::size_t known = std::min(p_, z.size());
-  start(z.first(known));
-  for (std::size_t k = known; k < z.size(); ++k) {
-    const double newest = state_(0);
-    const double prediction = a_(0) * newest + (m > 1 ? state_(1) : 0.0);
-    const double innovation = z[k] - prediction;
-    for (Eigen::Index i = 1; i < m; ++i) {
-      const double shifted = i + 1 < m ? state_(i + 1) : 0.0;
-      state_(i) = a_(i) * newest + shifted + gain_(i) * innovation;
-    }
-    state_(0) = prediction + gain_(0) * innovation;
-    z[k] = state_(0);
+  StateVector state = fitted_start(z);
+  for (double& value : z) {
+    step(state, value);
+    value = state(0);
   }
 }
 

@@ -1,6 +1,7 @@
 /// Kalman filtering of a series on its AR, MA or ARMA model.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "core/denoise/arma_model.hpp"
@@ -16,14 +17,18 @@ namespace gyrod::core {
 /// Source: Harvey, "Forecasting, structural time series models and the Kalman filter", section 3.4; [Yang2019] eq. (6).
 class ArmaKalman {
  public:
+  /// Beyond it even a model with roots at ArModel::kMaxRootRadius has forgotten its start.
+  static constexpr std::size_t kStartSamples = 32768;
+
   /// Solves for the steady-state gain K = X e1 / (e1' X e1 + r).
   /// @param model            stationary; q + 1 <= kMaxArOrder, which kMaxMaOrder ensures
   /// @param driving_variance q_w, @param noise_variance r; unit^2, finite
   /// @return false where there is no such filter to use: q_w or r not positive, or the Riccati equation did not settle
   [[nodiscard]] bool design(const ArmaModel& model, double driving_variance, double noise_variance) noexcept;
 
-  /// Filters z in place: z[k] becomes the estimate of s[k] given z[0..k]. The state starts at the first p samples as measured, which
-  /// become their own estimates, with w = 0 before.
+  /// Filters z in place: z[k] becomes the estimate of s[k] given z[0..k] and the start. The start is the state before z[0] that makes
+  /// the sum of squared innovations of the first kStartSamples samples least: what the model cannot know of the past is taken from
+  /// the data. (Started on the first samples as measured, a model with a root near 1 carries their noise for thousands of samples.)
   /// @pre design() returned true
   void filter(std::span<double> z) noexcept;
 
@@ -35,13 +40,13 @@ class ArmaKalman {
   [[nodiscard]] double error_variance() const noexcept { return error_variance_; }
 
  private:
-  void start(std::span<const double> measured) noexcept;
+  /// One step from the state after the sample before. @return the innovation
+  double step(StateVector& state, double measured) const noexcept;
+  [[nodiscard]] StateVector fitted_start(std::span<const double> z) const noexcept;
 
   StateVector a_;  ///< a_1 .. a_m, zeros beyond p
-  std::size_t p_ = 0;
   StateMatrix covariance_;
   StateVector gain_;
-  StateVector state_;
   double innovation_variance_ = 0.0;
   double error_variance_ = 0.0;
 };

@@ -61,8 +61,6 @@ TEST_P(RealSchemes, ImprovedIsTheBestOfThePapersUpToOneSecond) {
       EXPECT_LT(deviation(improved), deviation(other)) << where << " " << core::name_of(rival);
       EXPECT_LT(allan_deviation(improved, 10), allan_deviation(other, 10))
           << where << " " << core::name_of(rival);
-      // The one exception: the slowest mixed mode of imu2 z, whose filter is wider than its model asks for.
-      if (where == "imu2 axis 2" && rival == Scheme::kDirect) continue;
       EXPECT_LT(allan_deviation(improved, 100), allan_deviation(other, 100))
           << where << " " << core::name_of(rival);
     }
