@@ -181,9 +181,10 @@ int decompose(const DecomposeFlags& flags, Interrupt& interrupt) {
     const core::RecordAnalysis analysis = core::analyse_record(record->gyro_radps[targets[i].axis], options);
     write_columns(*outputs[i], *record, analysis, unit);
     axes[kAxisNames[targets[i].axis]] = axis_json(targets[i], analysis);
-    std::fprintf(stderr, "%s: %zu IMFs of %zu samples, 1 to %zu noise, to %zu mixed\n",
+    std::fprintf(stderr,
+                 "%s: %zu IMFs of %zu samples, by the paper's rule %zu noise, %zu mixed, the rest signal\n",
                  targets[i].path.c_str(), analysis.imfs.size(), record->size(), analysis.report.j,
-                 analysis.report.k);
+                 analysis.report.k - analysis.report.j);
   }
   for (const auto& output : outputs) output->close();
   if (summary_file) {
