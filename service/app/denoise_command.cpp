@@ -151,6 +151,47 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   return kDone;
 }
 
+constexpr const char* kFooter =
+    "The output has the input's columns, names and units; only the angular rates change. Columns:\n"
+    "  gyro_x_UNIT, gyro_y_UNIT, gyro_z_UNIT   UNIT: radps, mradps, dps, mdps, dph\n"
+    "  timestamp_s or stamp_ns (also _us, _ms) time of measurement; without it --rate applies\n"
+    "  sample or sequence                      number of the sample; without it rows are counted\n"
+    "  anything else                           passes through\n"
+    "Samples that are refused (nan, out of range, duplicate, ...) stay as they are and are counted.\n"
+    "Without --batch the result is the daemon's for the same samples, bit for bit. OUT appears when it is "
+    "complete.\n\n"
+    "Schemes:\n"
+    "  raw       nothing is changed\n"
+    "  direct    time-series model and Kalman filter on the record itself\n"
+    "  emd       decomposed, noise modes dropped\n"
+    "  acf-emd   decomposed, noise and mixed modes dropped\n"
+    "  improved  decomposed, noise modes dropped, mixed ones modelled and filtered: the method itself\n\n"
+    "Examples:\n"
+    "  gyrod denoise drive.csv -o denoised.csv\n"
+    "  gyrod denoise drive.csv.gz -o denoised.csv.gz --summary summary.json\n"
+    "  gyrod denoise still.csv -o direct.csv --batch --scheme direct";
+
+void add_method_options(CLI::App& command, DenoiseFlags& flags) {
+  command
+      .add_option("--scheme", flags.scheme,
+                  "raw, direct, emd, acf-emd or improved: see below [as configured, else improved]")
+      ->type_name("NAME")
+      ->check(one_of({core::kSchemeNames.begin(), core::kSchemeNames.end()}));
+  command
+      .add_option("--screening", flags.screening,
+                  "windowed or paper [as configured, else windowed; with --batch paper]")
+      ->type_name("RULE")
+      ->check(one_of({"windowed", "paper"}));
+  CLI::Option* batch =
+      command.add_flag("--batch", flags.batch, "The whole record at once, as the paper does, not in windows");
+  command
+      .add_option("--models", flags.models,
+                  "With --batch: identified (AR, MA or ARMA) or ar, as in windows [identified]")
+      ->type_name("KIND")
+      ->check(one_of({"identified", "ar"}))
+      ->needs(batch);
+}
+
 }  // namespace
 
 void add_denoise(CLI::App& parser, Action& chosen) {
@@ -168,44 +209,9 @@ void add_denoise(CLI::App& parser, Action& chosen) {
       ->type_name("FILE");
   command->add_option("--summary", flags->summary, "Write counts and noise figures as JSON")
       ->type_name("FILE.json");
-  command
-      ->add_option("--scheme", flags->scheme,
-                   "raw, direct, emd, acf-emd or improved: see below [as configured, else improved]")
-      ->type_name("NAME")
-      ->check(one_of({core::kSchemeNames.begin(), core::kSchemeNames.end()}));
-  command
-      ->add_option("--screening", flags->screening,
-                   "windowed or paper [as configured, else windowed; with --batch paper]")
-      ->type_name("RULE")
-      ->check(one_of({"windowed", "paper"}));
-  CLI::Option* batch = command->add_flag("--batch", flags->batch,
-                                         "The whole record at once, as the paper does, not in windows");
-  command
-      ->add_option("--models", flags->models,
-                   "With --batch: identified (AR, MA or ARMA) or ar, as in windows [identified]")
-      ->type_name("KIND")
-      ->check(one_of({"identified", "ar"}))
-      ->needs(batch);
+  add_method_options(*command, *flags);
   flags->recording.add_to(*command);
-  command->footer(
-      "The output has the input's columns, names and units; only the angular rates change. Columns:\n"
-      "  gyro_x_UNIT, gyro_y_UNIT, gyro_z_UNIT   UNIT: radps, mradps, dps, mdps, dph\n"
-      "  timestamp_s or stamp_ns (also _us, _ms) time of measurement; without it --rate applies\n"
-      "  sample or sequence                      number of the sample; without it rows are counted\n"
-      "  anything else                           passes through\n"
-      "Samples that are refused (nan, out of range, duplicate, ...) stay as they are and are counted.\n"
-      "Without --batch the result is the daemon's for the same samples, bit for bit. OUT appears when it is "
-      "complete.\n\n"
-      "Schemes:\n"
-      "  raw       nothing is changed\n"
-      "  direct    time-series model and Kalman filter on the record itself\n"
-      "  emd       decomposed, noise modes dropped\n"
-      "  acf-emd   decomposed, noise and mixed modes dropped\n"
-      "  improved  decomposed, noise modes dropped, mixed ones modelled and filtered: the method itself\n\n"
-      "Examples:\n"
-      "  gyrod denoise drive.csv -o denoised.csv\n"
-      "  gyrod denoise drive.csv.gz -o denoised.csv.gz --summary summary.json\n"
-      "  gyrod denoise still.csv -o direct.csv --batch --scheme direct");
+  command->footer(kFooter);
   command->callback(
       [&chosen, flags] { chosen = [flags](Interrupt& interrupt) { return denoise(*flags, interrupt); }; });
 }
