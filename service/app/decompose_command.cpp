@@ -168,6 +168,7 @@ int decompose(const DecomposeFlags& flags, Interrupt& interrupt) {
 
   const std::vector<Target> targets = targets_of(flags, *record);
   std::vector<std::unique_ptr<files::OutputFile>> outputs;
+  outputs.reserve(targets.size());
   for (const Target& target : targets) outputs.push_back(std::make_unique<files::OutputFile>(target.path));
   std::optional<files::OutputFile> summary_file;
   if (!flags.summary.empty()) summary_file.emplace(flags.summary);

@@ -188,10 +188,10 @@ void add_truth(CLI::App& command, NavigateFlags& flags) {
 }
 
 void add_start(CLI::App& command, NavigateFlags& flags) {
-  static const std::map<std::string, BiasSource> kBias = {{"auto", BiasSource::kAutomatic},
-                                                          {"level", BiasSource::kLevelling},
-                                                          {"truth", BiasSource::kTruth},
-                                                          {"none", BiasSource::kNone}};
+  static const std::map<std::string, BiasSource> sources = {{"auto", BiasSource::kAutomatic},
+                                                            {"level", BiasSource::kLevelling},
+                                                            {"truth", BiasSource::kTruth},
+                                                            {"none", BiasSource::kNone}};
   NavigationOptions& options = flags.options;
   auto* start = command
                     .add_option("--start", options.starts_s,
@@ -215,7 +215,7 @@ void add_start(CLI::App& command, NavigateFlags& flags) {
       ->check(in_range(0.1, 1e5));
   command
       .add_option_function<std::string>(
-          "--bias", [&options](const std::string& text) { options.bias = kBias.at(text); },
+          "--bias", [&options](const std::string& text) { options.bias = sources.at(text); },
           "Biases to take off. level: means of that rest; truth: what fits the whole truth best;\n"
           "none; auto: truth where that has attitudes, else level [auto]")
       ->type_name("FROM")
