@@ -57,8 +57,7 @@ std::optional<core::SensorBias> NavigationSetup::constant_bias(const core::Inert
 NavigationSetup::Start NavigationSetup::start_of(const core::InertialSeries& series,
                                                  const NavigationSpan& span,
                                                  const std::optional<core::SensorBias>& constant) const {
-  const Start start =
-      start_with_heading(series, span, constant, kRadPerDeg * options_.heading_deg.value_or(0.0));
+  Start start = start_with_heading(series, span, constant, kRadPerDeg * options_.heading_deg.value_or(0.0));
   if (!matches_heading()) return start;
   return start_with_heading(series, span, constant, matched_heading(series, span, start));
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -53,10 +54,9 @@ std::optional<files::Record> load(ReportFlags flags, Interrupt& interrupt) {
 }
 
 bool is_still(const files::Record& record) {
-  for (const auto& axis : record.gyro_radps) {
-    if (!report::stillness(axis, record.sample_rate_hz).still()) return false;
-  }
-  return true;
+  return std::ranges::all_of(record.gyro_radps, [&record](const std::vector<double>& axis) {
+    return report::stillness(axis, record.sample_rate_hz).still();
+  });
 }
 
 Json record_json(const files::Record& record, bool still) {

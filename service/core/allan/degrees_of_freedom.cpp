@@ -62,7 +62,9 @@ double correlated_sum(PowerLaw noise, double m, double terms) noexcept {
   const double step = std::max(1.0, std::min(m, terms) / kStepsPerCluster);
   const double at_zero = autocovariance(noise, 0.0);
   double sum = 0.5;
-  for (double lag = step; lag < terms && lag < kFarthestLag * m; lag += step) {
+  const double end = std::min(terms, kFarthestLag * m);
+  for (std::size_t i = 1; step * static_cast<double>(i) < end; ++i) {
+    const double lag = step * static_cast<double>(i);
     const double rho = autocovariance(noise, lag / m) / at_zero;
     sum += (1.0 - lag / terms) * rho * rho;
   }

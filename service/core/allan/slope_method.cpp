@@ -93,6 +93,7 @@ Coefficient read_line(std::span<const LogPoint> run, double slope, NoiseTerm ter
 NoiseCoefficients slope_coefficients(std::span<const AllanPoint> points) {
   const std::vector<LogPoint> logs = in_decades(points);
   std::vector<double> slopes;
+  slopes.reserve(logs.size());
   for (const LogPoint& point : logs) slopes.push_back(local_slope(logs, point.tau).value_or(std::nan("")));
   NoiseCoefficients coefficients;
   for (std::size_t t = 0; t < kNoiseTerms; ++t) {

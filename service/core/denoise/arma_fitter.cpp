@@ -174,8 +174,8 @@ LeastSquares ArmaFitter::step(const ArmaModel& model) noexcept {
 /// Goes the step, or a half, a quarter, ... of it. @return false, with model and sum unchanged, where none is better
 bool ArmaFitter::advance(ArmaModel& model, const LeastSquares& step, double& sum) noexcept {
   constexpr int kMaxHalvings = 8;
-  double length = 1.0;
-  for (int halving = 0; halving <= kMaxHalvings; ++halving, length *= 0.5) {
+  for (int halving = 0; halving <= kMaxHalvings; ++halving) {
+    const double length = std::ldexp(1.0, -halving);
     ArmaModel trial = model;
     for (std::size_t i = 0; i < model.p; ++i)
       trial.a[i] += length * step.coefficients(static_cast<Eigen::Index>(i));
