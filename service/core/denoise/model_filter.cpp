@@ -61,10 +61,10 @@ ModelFigures ModelFilter::filter_identified(std::span<double> series, const Filt
   // filter, which lets more noise through and no signal less.
   constexpr double kRaise = 10.0;
   const double most = std::max(kBelievedInnovation * noise.energy, model.innovation_variance);
-  for (double driving = model.innovation_variance * noise.signal_share; driving <= most && !figures.used;
-       driving *= kRaise) {
+  double driving = model.innovation_variance * noise.signal_share;
+  while (driving > 0.0 && driving <= most && !figures.used) {
     figures.used = arma_kalman_.design(model, driving, noise.noise_variance);
-    if (!(driving > 0.0)) break;
+    driving *= kRaise;
   }
   if (figures.used) arma_kalman_.filter(series);
   return figures;
