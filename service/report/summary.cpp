@@ -75,7 +75,7 @@ void append_idle_axes(const Json& axes, std::vector<std::string>& sentences) {
 /// Several: "75 to 81 % less"; "2 % less to 3 % more".
 std::string changes_words(const std::vector<double>& ratios) {
   const auto [least, most] = std::ranges::minmax(ratios);
-  const std::string low = change_words(most < 1.0 ? most : least);
+  std::string low = change_words(most < 1.0 ? most : least);
   const std::string high = change_words(most < 1.0 ? least : most);
   if (low == high) return low;
   const bool same_way = low.substr(low.find(' ')) == high.substr(high.find(' '));
@@ -154,8 +154,10 @@ std::string ranking_sentence(const Json& axes) {
   std::string disagreement;
   for (const auto& [name, axis] : axes.items()) {
     if (axis.at("decomposition").contains("absent")) continue;
-    for (const std::string& lost : defeats(axis))
-      disagreement += (disagreement.empty() ? "" : "; ") + name + ": " + lost;
+    for (const std::string& lost : defeats(axis)) {
+      if (!disagreement.empty()) disagreement += "; ";
+      disagreement.append(name).append(": ").append(lost);
+    }
   }
   if (disagreement.empty()) {
     return "Of the paper's schemes (raw, direct, emd, improved) improved is best on every axis, in standard "
