@@ -1,0 +1,174 @@
+#include "core/joint/joint_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "core/denoise/noise_line.hpp"
+#include "core/signal/moments.hpp"
+
+namespace gyrod::core {
+namespace {
+
+/// What a mode's drive is multiplied by at the start where its IMF holds no more than noise.
+constexpr double kLeastShare = 0.05;
+
+FilterBlock colour_block(const NoiseModel& noise) noexcept {
+  FilterBlock block;
+  block.order = noise.colour_order;
+  std::ranges::copy(noise.colour, block.a.begin());
+  block.drive = noise.colour_variance;
+  return block;
+}
+
+}  // namespace
+
+JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
+    : options_(options),
+      max_samples_(max_samples),
+      emd_(max_samples, options.emd),
+      tapers_(max_samples, options.tapers, options.recency),
+      whittle_(tapers_.transform_samples(), options.bandwidth_cycles),
+      centred_(max_samples),
+      imf_(max_samples),
+      slow_(max_samples),
+      periodogram_(tapers_.bins()) {
+  if (static_cast<std::size_t>(options.emd.max_imfs) > kMaxImfs) {
+    throw std::invalid_argument("IMF limit is " + std::to_string(options.emd.max_imfs) +
+                                ", expected at most " + std::to_string(kMaxImfs));
+  }
+}
+
+void JointFit::fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,
+                   WindowReport& report) noexcept {
+  assert(window.size() >= kMinSamples && window.size() <= max_samples_);
+  report = {};
+  report.window_samples = window.size();
+  report.mean = mean(window);
+  centred_.resize(window.size());
+  for (std::size_t n = 0; n < window.size(); ++n) centred_[n] = window[n] - report.mean;
+  decompose(noise, report);
+  if (!is_usable(noise_)) return;
+  tapers_.spectrum(centred_, periodogram_);
+  for (double& power : periodogram_) power /= unit_;
+  whittle_.observe(periodogram_, noise_);
+  whittle_.iterate(full_, options_.pruned_iterations);
+  pruned_ = full_;
+  whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
+  whittle_.prune(pruned_, options_.prune_gain);
+  whittle_.iterate(pruned_, options_.pruned_iterations);
+  model.mean = report.mean;
+  design(model);
+}
+
+/// IMF by IMF: its figures, and a mode to start from. What is slower than T_slow is gathered with the residue.
+void JointFit::decompose(const NoiseModel& noise, WindowReport& report) noexcept {
+  const std::span<double> imf{imf_.data(), centred_.size()};
+  const std::span<double> slow{slow_.data(), centred_.size()};
+  std::ranges::fill(slow, 0.0);
+  full_.clear();
+  emd_.start(centred_);
+  noise_ = noise;
+  unit_ = noise_variance(noise);
+  while (emd_.next_imf(imf)) {
+    if (report.imf_count == 0 && !is_usable(noise)) {
+      unit_ = white_noise_variance(variance(imf));
+      noise_ = white_noise(unit_);
+    }
+    describe(imf, report);
+    const ImfFigures& figures = report.imf[report.imf_count - 1];
+    if (figures.imf_class == ImfClass::kSignal || full_.size() + 1 >= kMaxModes) {
+      for (std::size_t n = 0; n < slow.size(); ++n) slow[n] += imf[n];
+    } else if (figures.imf_class == ImfClass::kMixed) {
+      start_mode(imf, figures);
+    }
+  }
+  report.noise_floor = std::sqrt(unit_);
+  if (!is_usable(noise_)) return;
+  noise_ = scaled(noise_, 1.0 / report.noise_floor);
+  const auto residue = emd_.residue();
+  for (std::size_t n = 0; n < slow.size(); ++n) slow[n] += residue[n];
+  ImfFigures slow_figures;
+  slow_figures.imf_class = ImfClass::kSignal;
+  start_mode(slow, slow_figures);
+}
+
+/// Energy, period, excess and class of an IMF: noise is left out, mixed becomes a mode, signal joins the slow mode.
+void JointFit::describe(std::span<const double> imf, WindowReport& report) const noexcept {
+  const std::size_t index = ++report.imf_count;
+  ImfFigures& figures = report.imf[index - 1];
+  figures = {};
+  figures.energy = variance(imf);
+  figures.mean_period_samples = mean_period(imf);
+  if (unit_ > 0.0) figures.excess = figures.energy / (unit_ * noise_line_energy(index));
+  if (figures.mean_period_samples > options_.slow_period_samples) return;
+  report.k = index;
+  figures.imf_class = figures.excess < options_.least_excess ? ImfClass::kNoise : ImfClass::kMixed;
+  if (figures.imf_class == ImfClass::kNoise && report.j + 1 == index) report.j = index;
+}
+
+void JointFit::start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept {
+  std::array<double, kModeOrder + 1> r{};
+  tapers_.autocovariance(imf, r);
+  for (double& value : r) value /= unit_;
+  const bool slow = figures.imf_class == ImfClass::kSignal;
+  SpectralMode mode = whittle_.mode_of(r, slow);
+  if (!slow) mode.drive *= std::max(1.0 - 1.0 / figures.excess, kLeastShare);
+  if (slow || mode.drive > 0.0) full_.add(mode);
+}
+
+void JointFit::design(JointModel& model) noexcept {
+  model.fallbacks = 0;
+  const BlockSet pruned = blocks_of(pruned_, 1.0);
+  make(blocks_of(full_, 1.0), MemberKind::kFull, model);
+  make(pruned, MemberKind::kPruned, model);
+  const double drive = options_.agile_drive * model.member(MemberKind::kFull).innovation_variance / unit_;
+  const double rho = options_.level_pole;
+  const double d = options_.slope_pole;
+  FilterBlock agile{.order = 1, .a = {rho}, .drive = drive, .signal = true};
+  make(with_agile(agile), MemberKind::kLevel, model);
+  agile.order = 2;
+  agile.a = {rho + d, -rho * d};
+  make(with_agile(agile), MemberKind::kSlope, model);
+  make(blocks_of(full_, options_.drive_ratio), MemberKind::kRough, model);
+  make(blocks_of(full_, 1.0 / options_.drive_ratio), MemberKind::kCalm, model);
+}
+
+/// A member in the data's unit. One that cannot be made keeps what it was.
+void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept {
+  MemberModel& member = model.member(kind);
+  if (!designer_.design(blocks, noise_.white_variance, member)) {
+    ++model.fallbacks;
+    return;
+  }
+  member.innovation_variance *= unit_;
+  member.prediction_variance *= unit_;
+}
+
+/// The modes, all but the slow one driven drive_ratio times as hard, with their roots pulled in; and the noise's colour.
+BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
+  BlockSet set;
+  for (const SpectralMode& mode : modes.modes()) {
+    FilterBlock block{
+        .order = kModeOrder, .drive = mode.drive * (mode.slow ? 1.0 : drive_ratio), .signal = true};
+    double factor = 1.0;
+    for (std::size_t i = 0; i < kModeOrder; ++i) {
+      factor *= options_.pole_factor;
+      block.a[i] = mode.a[i] * factor;
+    }
+    set.add(block);
+  }
+  if (noise_.colour_order > 0) set.add(colour_block(noise_));
+  return set;
+}
+
+BlockSet JointFit::with_agile(const FilterBlock& agile) noexcept {
+  BlockSet set = blocks_of(pruned_, 1.0);
+  set.add(agile);
+  return set;
+}
+
+}  // namespace gyrod::core

@@ -1,0 +1,65 @@
+/// The slow loop of the two-speed estimator: from a window to a bank of filters.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/denoise/window_report.hpp"
+#include "core/emd/emd.hpp"
+#include "core/joint/joint_model.hpp"
+#include "core/joint/joint_options.hpp"
+#include "core/joint/recency_tapers.hpp"
+#include "core/joint/whittle_fit.hpp"
+#include "core/noise/noise_model.hpp"
+
+namespace gyrod::core {
+
+/// Takes the window minus its mean apart (EMD), starts a mode from every IMF that holds more than noise and one from all that is slow,
+/// fits their spectra beside the noise's (WhittleFit), and makes the members of the bank (MemberDesigner).
+/// Sizes its workspace once; fit() allocates nothing and is a pure function of its input, but for members that cannot be made and keep
+/// what `model` held. One object per worker; not thread-safe.
+/// Source: docs/method.md, "Moving vehicles".
+class JointFit {
+ public:
+  /// Shortest window that is fitted.
+  static constexpr std::size_t kMinSamples = 64;
+
+  /// @param max_samples longest window, at least kMinSamples
+  /// @throws std::invalid_argument for an option outside its range
+  explicit JointFit(std::size_t max_samples, const JointOptions& options = {});
+
+  /// @param window uniformly sampled, finite, any unit
+  /// @param noise  the channel's noise; where it is not usable, white noise of the level that IMF 1 stands for is taken
+  /// @param model  receives the members; untouched where the window does not vary
+  /// @param report receives mean, noise floor and the IMFs' figures
+  /// @pre kMinSamples <= window.size() <= max_samples
+  void fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,
+           WindowReport& report) noexcept;
+
+ private:
+  void decompose(const NoiseModel& noise, WindowReport& report) noexcept;
+  void describe(std::span<const double> imf, WindowReport& report) const noexcept;
+  void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
+  void design(JointModel& model) noexcept;
+  void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
+  [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
+  [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
+
+  JointOptions options_;
+  std::size_t max_samples_;
+  Emd emd_;
+  RecencyTapers tapers_;
+  WhittleFit whittle_;
+  MemberDesigner designer_;
+  std::vector<double> centred_;
+  std::vector<double> imf_;
+  std::vector<double> slow_;
+  std::vector<double> periodogram_;
+  NoiseModel noise_;   ///< of this window, in parts of unit_
+  double unit_ = 1.0;  ///< variance of the noise
+  ModeSet full_;
+  ModeSet pruned_;
+};
+
+}  // namespace gyrod::core

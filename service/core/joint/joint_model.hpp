@@ -1,0 +1,40 @@
+/// What the slow loop of the two-speed estimator hands to the fast one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/joint/member_model.hpp"
+
+namespace gyrod::core {
+
+/// The members of the bank. Each answers for a kind of motion; how well it predicts decides its weight.
+enum class MemberKind : std::uint8_t {
+  kFull,    ///< all modes of the fit
+  kPruned,  ///< the modes that pay
+  kLevel,   ///< the pruned ones and a nearly constant rate: a turn begins
+  kSlope,   ///< the pruned ones and a nearly constant acceleration: a turn winds up
+  kRough,   ///< all modes, driven harder: a bump
+  kCalm,    ///< all modes, driven less: smooth road
+};
+inline constexpr std::size_t kMembers = 6;
+
+/// A plain value of about 20 KB: copied, never shared.
+struct JointModel {
+  double mean = 0.0;  ///< of the window, the members' zero, in the data's unit
+  std::array<MemberModel, kMembers> members{};
+  /// Members that could not be made of the last window and keep what they had.
+  std::size_t fallbacks = 0;
+
+  [[nodiscard]] MemberModel& member(MemberKind kind) noexcept {
+    return members[static_cast<std::size_t>(kind)];
+  }
+  [[nodiscard]] const MemberModel& member(MemberKind kind) const noexcept {
+    return members[static_cast<std::size_t>(kind)];
+  }
+  /// False until a window has been fitted.
+  [[nodiscard]] bool usable() const noexcept { return member(MemberKind::kFull).usable; }
+};
+
+}  // namespace gyrod::core

@@ -1,0 +1,63 @@
+/// The numbers of the two-speed estimator, and its limits.
+#pragma once
+
+#include <cstddef>
+
+#include "core/emd/emd.hpp"
+
+namespace gyrod::core {
+
+/// Order of a mode's AR model: an oscillation and one more pole.
+inline constexpr std::size_t kModeOrder = 3;
+/// Modes at the most, the slow one among them; what is faster than T_slow and beyond that number joins the slow mode.
+inline constexpr std::size_t kMaxModes = 10;
+/// Largest lag that a filter answers for, samples.
+inline constexpr std::size_t kMaxLag = 32;
+
+/// Source, where nothing else is said: tests/benchmark/joint_study.cpp and docs/method.md, which give what other values cost.
+struct JointOptions {
+  EmdOptions emd;
+  /// IMFs whose energy is below this part of white noise's in the same IMF are left out at the start. Range 0..10.
+  double least_excess = 0.8;
+  /// IMFs with longer mean periods than this join the slow mode, samples. Range 8..1e6.
+  double slow_period_samples = 128.0;
+  /// Recency-warped sine tapers that are averaged. Range 1..8.
+  std::size_t tapers = 2;
+  /// How strongly the tapers look at the newest samples; 0 looks at all alike. Range 0..20.
+  double recency = 4.0;
+  /// Iterations of the EM fit: of the full set of modes, and of the pruned set before and after pruning. Range 1..100.
+  int full_iterations = 20;
+  int pruned_iterations = 5;
+  /// Bandwidth below which a mode other than the slow one is not narrowed by the fit, cycles per sample. Range 0..0.1.
+  double bandwidth_cycles = 0.001;
+  /// A mode is kept by pruning where it buys at least this much of twice the log-likelihood. Range 0..1e4.
+  double prune_gain = 25.0;
+  /// Roots of every mode are pulled in by this factor, so that the filter forgets. Range 0.9..1.
+  double pole_factor = 0.99995;
+  /// The agile members' poles: nearly constant rate, nearly constant acceleration. Range 0..1.
+  double level_pole = 0.9999;
+  double slope_pole = 0.97;
+  /// Variance of what drives an agile member's extra block, in parts of the full member's innovation variance. Range 0..10.
+  double agile_drive = 0.02;
+  /// The rough and the calm member: the full set with all modes but the slow one driven by this many times the variance, and by its
+  /// inverse. Range 1..1000.
+  double drive_ratio = 4.0;
+  /// Logarithm of the prior weight of an agile member, and of a rough or calm one. Range -100..0.
+  double agile_log_prior = -3.0;
+  double drive_log_prior = -1.0;
+  /// How much of a member's log-likelihood is kept from sample to sample. Range 0..1.
+  double likelihood_memory = 0.97;
+  /// Samples that a new model is run over before it answers. Range 0..kMaxHandOver.
+  std::size_t hand_over_samples = 256;
+  /// Rate of the slow correction, per sample: it takes what the models miss of slow motion. Range 0..1.
+  double correction_rate = 0.004;
+  /// What the members' own variance is multiplied by: they do not know that their models are estimates. Range 1..10.
+  double variance_factor = 1.3;
+  /// Angular frequency above which nothing is signal, radians per sample; pi or more: all frequencies may be signal.
+  double max_signal_radians = 4.0;
+};
+
+/// Largest hand_over_samples.
+inline constexpr std::size_t kMaxHandOver = 1024;
+
+}  // namespace gyrod::core

@@ -1,0 +1,206 @@
+#include "core/joint/kalman_bank.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace gyrod::core {
+namespace {
+
+/// Local levels before the first model: x[t] = x[t-1] + w, z = x + v with var w = ratio var v. Calm, ordinary, rough.
+constexpr std::array<double, 3> kStartRatios = {1e-4, 0.02, 1.0};
+
+/// The steady state in closed form, in parts of var v: X = (ratio + sqrt(ratio^2 + 4 ratio)) / 2, K = X / (X + 1), g_k = K (1 - K)^k.
+MemberModel local_level(double ratio) noexcept {
+  MemberModel member;
+  FilterBlock level;
+  level.order = 1;
+  level.a[0] = 1.0;
+  level.drive = ratio;
+  level.signal = true;
+  member.blocks.add(level);
+  member.states = 1;
+  const double X = 0.5 * (ratio + std::sqrt(ratio * ratio + 4.0 * ratio));
+  const double K = X / (X + 1.0);
+  member.gain[0] = K;
+  member.innovation_variance = X + 1.0;
+  member.prediction_variance = X;
+  double g = K;
+  for (double& value : member.smoothing) {
+    value = g;
+    g *= 1.0 - K;
+  }
+  member.usable = true;
+  return member;
+}
+
+}  // namespace
+
+KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
+    : options_(options), lag_(lag), history_(std::max(options.hand_over_samples, kRing)) {
+  assert(lag <= kMaxLag && options.hand_over_samples <= kMaxHandOver);
+  const double agile = options.agile_log_prior;
+  const double drive = options.drive_log_prior;
+  log_prior_ = {0.0, 0.0, agile, agile, drive, drive};
+  reset();
+}
+
+void KalmanBank::reset() noexcept {
+  count_ = 0;
+  started_ = false;
+  fitted_ = false;
+  unit_ = 0.0;
+  members_ = {};
+  realtime_correction_ = 0.0;
+  denoised_correction_ = 0.0;
+  normalised_innovation_ = 1.0;
+}
+
+void KalmanBank::use(const JointModel& model) noexcept {
+  if (!model.usable()) return;
+  model_ = model;
+  unit_ = 1.0;
+  started_ = true;
+  if (!fitted_) {
+    fitted_ = true;
+    for (Member& member : members_) member.log_likelihood = 0.0;
+    realtime_correction_ = 0.0;
+    denoised_correction_ = 0.0;
+  }
+  const std::uint64_t begin = count_ - std::min<std::uint64_t>(count_, options_.hand_over_samples);
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (!model_.members[i].usable) continue;
+    members_[i].x = {};
+    for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
+      error_variance_[i][lag] = model_.members[i].error_variance(lag);
+    }
+    for (std::uint64_t time = begin; time < count_; ++time) predict_and_update(i, sample_at(time), time);
+  }
+  if (count_ > 0) weigh();
+}
+
+BankEstimates KalmanBank::step(double sample) noexcept {
+  if (!started_) start();
+  if (count_ == 0) model_.mean = fitted_ ? model_.mean : sample;
+  history_[count_ % history_.size()] = sample;
+  if (!fitted_) learn_start_variance(sample);
+  double fit = 0.0;
+  double weights = 0.0;
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    const MemberModel& member = model_.members[i];
+    if (!member.usable) continue;
+    predict_and_update(i, sample, count_);
+    const double nu = members_[i].innovation[count_ % kRing];
+    const double S = member.innovation_variance * unit_;
+    const double normalised = S > 0.0 ? nu * nu / S : 0.0;
+    double& l = members_[i].log_likelihood;
+    l = options_.likelihood_memory * l - 0.5 * (normalised + (S > 0.0 ? std::log(S) : 0.0));
+    fit += members_[i].weight * normalised;
+    weights += members_[i].weight;
+  }
+  ++count_;
+  weigh();
+  if (fitted_ && weights > 0.0)
+    normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
+  BankEstimates answer;
+  answer.realtime = combine(0);
+  realtime_correction_ += options_.correction_rate * (sample - answer.realtime.rate - realtime_correction_);
+  answer.realtime.rate += realtime_correction_;
+  if (count_ <= lag_) return answer;
+  answer.denoised = combine(lag_);
+  const double then = sample_at(count_ - 1 - lag_);
+  denoised_correction_ += options_.correction_rate * (then - answer.denoised.rate - denoised_correction_);
+  answer.denoised.rate += denoised_correction_;
+  return answer;
+}
+
+BankEstimate KalmanBank::held(std::size_t age) const noexcept {
+  assert(age <= lag_ && age < count_);
+  BankEstimate estimate = combine(age);
+  estimate.rate += denoised_correction_;
+  return estimate;
+}
+
+/// The local levels; the other members stay out.
+void KalmanBank::start() noexcept {
+  model_ = {};
+  for (std::size_t i = 0; i < kStartRatios.size(); ++i) {
+    model_.members[i] = local_level(kStartRatios[i]);
+    for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
+      error_variance_[i][lag] = model_.members[i].error_variance(lag);
+    }
+  }
+  started_ = true;
+}
+
+/// The level of the noise before anything is known of it: white noise of variance s^2 has second differences of variance 6 s^2.
+void KalmanBank::learn_start_variance(double sample) noexcept {
+  if (count_ < 2) return;
+  const double second = sample - 2.0 * sample_at(count_ - 1) + sample_at(count_ - 2);
+  const double share = 1.0 / static_cast<double>(std::min<std::uint64_t>(count_ - 1, 128));
+  unit_ += share * (second * second / 6.0 - unit_);
+}
+
+void KalmanBank::predict_and_update(std::size_t index, double sample, std::uint64_t time) noexcept {
+  const MemberModel& model = model_.members[index];
+  Member& member = members_[index];
+  double signal = 0.0;
+  double sum = 0.0;
+  double* x = member.x.data();
+  for (const FilterBlock& block : model.blocks.all()) {
+    double head = 0.0;
+    for (std::size_t i = 0; i < block.order; ++i) head += block.a[i] * x[i];
+    for (std::size_t i = block.order - 1; i > 0; --i) x[i] = x[i - 1];
+    x[0] = head;
+    sum += head;
+    if (block.signal) signal += head;
+    x += block.order;
+  }
+  const double nu = sample - model_.mean - sum;
+  for (std::size_t i = 0; i < model.states; ++i) member.x[i] += model.gain[i] * nu;
+  member.innovation[time % kRing] = nu;
+  member.prediction[time % kRing] = signal;
+}
+
+void KalmanBank::weigh() noexcept {
+  double best = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (model_.members[i].usable) best = std::max(best, members_[i].log_likelihood + log_prior_[i]);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    Member& member = members_[i];
+    member.weight = model_.members[i].usable ? std::exp(member.log_likelihood + log_prior_[i] - best) : 0.0;
+    sum += member.weight;
+  }
+  for (Member& member : members_) member.weight /= sum;
+}
+
+/// Of x[t - lag], t the newest sample, without the slow correction.
+BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
+  std::array<double, kMembers> estimates{};
+  BankEstimate mixture;
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (members_[i].weight == 0.0) continue;
+    estimates[i] = member_estimate(i, lag);
+    mixture.rate += members_[i].weight * estimates[i];
+  }
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (members_[i].weight == 0.0) continue;
+    const double apart = estimates[i] - mixture.rate;
+    mixture.variance += members_[i].weight * (error_variance_[i][lag] * unit_ + apart * apart);
+  }
+  mixture.variance *= options_.variance_factor;
+  return mixture;
+}
+
+double KalmanBank::member_estimate(std::size_t index, std::size_t lag) const noexcept {
+  const Member& member = members_[index];
+  const auto& g = model_.members[index].smoothing;
+  const std::uint64_t then = count_ - 1 - lag;
+  double estimate = model_.mean + member.prediction[then % kRing];
+  for (std::size_t k = 0; k <= lag; ++k) estimate += g[k] * member.innovation[(then + k) % kRing];
+  return estimate;
+}
+
+}  // namespace gyrod::core

@@ -1,0 +1,94 @@
+/// The fast loop of the two-speed estimator: a bank of steady-state Kalman filters.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/joint/joint_model.hpp"
+#include "core/joint/joint_options.hpp"
+
+namespace gyrod::core {
+
+/// An estimate of the true rate, and of its error's variance, in the data's unit and its square.
+struct BankEstimate {
+  double rate = 0.0;
+  double variance = 0.0;
+};
+
+/// What is known of x after a sample z[t].
+struct BankEstimates {
+  BankEstimate realtime;  ///< x[t] given z[..t]
+  BankEstimate denoised;  ///< x[t-lag] given z[..t]; before sample number `lag` it means nothing
+};
+
+/// Every member, per sample:
+///   x <- A x,   s = C' x,   nu = (z - mean) - H' x,   x <- x + K nu,   l <- memory l - (nu^2 / S + ln S) / 2,
+/// with weights w ~ exp(l + log prior). The estimate at lag L is
+///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
+/// exact in the steady state; the bank's is sum w e_L, and a slow correction is added to it, which follows z[t-L] - e with
+/// correction_rate, so that what no member expects still arrives. Its variance is variance_factor sum w (P_L + (e_L - e)^2).
+/// Before the first model, three local levels (random walks seen in white noise) answer.
+/// Allocates nothing after construction; finite for finite input. Not thread-safe.
+/// Source: docs/method.md; fixed lag by innovations: Anderson, Moore 1979, "Optimal filtering", section 7.3.
+class KalmanBank {
+ public:
+  /// @param lag 0..kMaxLag
+  KalmanBank(const JointOptions& options, std::size_t lag);
+
+  /// Takes over a model (copied) from the next sample on: its members run over the last hand_over_samples first, and inherit the
+  /// weights. A model that is not usable is ignored.
+  void use(const JointModel& model) noexcept;
+  /// Takes z[t].
+  BankEstimates step(double sample) noexcept;
+  /// x[t-age] given all up to z[t], 0 <= age <= lag.
+  [[nodiscard]] BankEstimate held(std::size_t age) const noexcept;
+  /// Mean of nu^2 / S over about the last kFitMemory samples: 1 where the model explains what comes in.
+  [[nodiscard]] double normalised_innovation() const noexcept { return normalised_innovation_; }
+  /// Forgets everything.
+  void reset() noexcept;
+
+  static constexpr double kFitMemory = 256.0;
+
+ private:
+  /// Ring of what a member made of the last samples; a power of two beyond kMaxLag.
+  static constexpr std::size_t kRing = 64;
+  static_assert(kRing > kMaxLag && (kRing & (kRing - 1)) == 0);
+
+  struct Member {
+    std::array<double, kMaxStates> x{};
+    std::array<double, kRing> innovation{};
+    std::array<double, kRing> prediction{};
+    double log_likelihood = 0.0;
+    double weight = 0.0;
+  };
+
+  void start() noexcept;
+  void learn_start_variance(double sample) noexcept;
+  void predict_and_update(std::size_t index, double sample, std::uint64_t time) noexcept;
+  void weigh() noexcept;
+  [[nodiscard]] BankEstimate combine(std::size_t lag) const noexcept;
+  [[nodiscard]] double member_estimate(std::size_t index, std::size_t lag) const noexcept;
+  [[nodiscard]] double sample_at(std::uint64_t time) const noexcept {
+    return history_[time % history_.size()];
+  }
+
+  JointOptions options_;
+  std::size_t lag_;
+  JointModel model_;
+  bool started_ = false;
+  bool fitted_ = false;      ///< model_ came from a window
+  double unit_ = 1.0;        ///< variances of the model in use are in parts of this
+  std::uint64_t count_ = 0;  ///< samples taken
+  std::vector<double> history_;
+  std::array<Member, kMembers> members_{};
+  std::array<double, kMembers> log_prior_{};
+  /// P_L of every member at lag 0 and at lag_.
+  std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
+  double realtime_correction_ = 0.0;
+  double denoised_correction_ = 0.0;
+  double normalised_innovation_ = 1.0;
+};
+
+}  // namespace gyrod::core

@@ -1,0 +1,72 @@
+/// A member of the bank: the steady-state Kalman filter of a sum of autoregressive processes in white noise.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "core/joint/joint_options.hpp"
+#include "core/noise/noise_model.hpp"
+
+namespace gyrod::core {
+
+/// Blocks of a member: modes, one that makes it agile, and the noise's colour.
+inline constexpr std::size_t kMaxBlocks = kMaxModes + 2;
+/// State elements of a member.
+inline constexpr std::size_t kMaxStates = kMaxModes * kModeOrder + 2 + kMaxNoiseColour;
+
+/// One process of the sum, x[t] = a_1 x[t-1] + ... + a_p x[t-p] + w[t], w ~ N(0, drive); its state is (x[t], ..., x[t-p+1]).
+struct FilterBlock {
+  std::size_t order = 0;
+  std::array<double, kMaxNoiseColour> a{};
+  double drive = 0.0;   ///< unit^2
+  bool signal = false;  ///< part of what is estimated; false for the noise's colour
+};
+
+/// The blocks of a member; a plain value.
+struct BlockSet {
+  std::size_t count = 0;
+  std::array<FilterBlock, kMaxBlocks> blocks{};
+
+  [[nodiscard]] std::span<const FilterBlock> all() const noexcept { return {blocks.data(), count}; }
+  /// @pre count < kMaxBlocks
+  void add(const FilterBlock& block) noexcept { blocks[count++] = block; }
+};
+
+/// z[t] = H' x[t] + v, v ~ N(0, r), x = A x + w with A of companion blocks, H = 1 at each block's head, C = H of the signal blocks. In
+/// the steady state, with X the prediction's covariance, S = H' X H + r, F = A (I - K H'):
+struct MemberModel {
+  BlockSet blocks;
+  std::size_t states = 0;
+  std::array<double, kMaxStates> gain{};  ///< K = X H / S
+  double innovation_variance = 0.0;       ///< S, unit^2
+  double prediction_variance = 0.0;       ///< C' X C, of the predicted signal's error, unit^2
+  /// g_k = C' X (F')^k H / S: the signal k samples ago is better known by g_k times the newest innovation.
+  std::array<double, kMaxLag + 1> smoothing{};
+  bool usable = false;
+
+  /// Variance of the estimate's error at this lag, C' X C - S sum_{k <= lag} g_k^2, unit^2. @pre lag <= kMaxLag
+  [[nodiscard]] double error_variance(std::size_t lag) const noexcept;
+};
+
+/// Makes members. Sizes its workspace once; design() allocates nothing. Not thread-safe.
+class MemberDesigner {
+ public:
+  MemberDesigner();
+  ~MemberDesigner();
+  MemberDesigner(MemberDesigner&&) noexcept;
+  MemberDesigner& operator=(MemberDesigner&&) noexcept;
+
+  /// Solves for the steady state by structured doubling (core/denoise/riccati.hpp).
+  /// @param noise_variance r > 0, unit^2
+  /// @return false, with `member` untouched, where it does not settle or is not finite
+  /// @pre the blocks' roots lie inside the unit circle, their orders add up to at most kMaxStates
+  [[nodiscard]] bool design(const BlockSet& blocks, double noise_variance, MemberModel& member) noexcept;
+
+ private:
+  class Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace gyrod::core

@@ -1,0 +1,104 @@
+#include "core/joint/recency_tapers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <Eigen/Core>
+#include <unsupported/Eigen/FFT>
+
+#include "core/signal/sums.hpp"
+
+namespace gyrod::core {
+
+class RecencyTapers::Transform {
+ public:
+  explicit Transform(std::size_t length) : spectrum_(length) {
+    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  }
+
+  /// Adds factor |X(w)|^2 to `power`.
+  void add_power(std::span<const double> x, double factor, std::span<double> power) noexcept {
+    fft_.fwd(spectrum_.data(), x.data(), static_cast<Eigen::Index>(x.size()));
+    for (std::size_t bin = 0; bin < power.size(); ++bin) power[bin] += factor * std::norm(spectrum_[bin]);
+  }
+
+ private:
+  std::vector<std::complex<double>> spectrum_;
+  Eigen::FFT<double> fft_;
+};
+
+RecencyTapers::RecencyTapers(std::size_t max_samples, std::size_t tapers, double recency)
+    : max_samples_(max_samples),
+      transform_samples_(std::bit_ceil(max_samples)),
+      tapers_(tapers),
+      recency_(recency),
+      table_(tapers * max_samples),
+      work_(transform_samples_),
+      transform_(std::make_unique<Transform>(transform_samples_)) {
+  assert(max_samples >= 8);
+  // The library makes its plan on first use: make it here, so that later calls allocate nothing.
+  std::vector<double> nothing(bins());
+  transform_->add_power(work_, 0.0, nothing);
+}
+
+RecencyTapers::~RecencyTapers() = default;
+RecencyTapers::RecencyTapers(RecencyTapers&&) noexcept = default;
+RecencyTapers& RecencyTapers::operator=(RecencyTapers&&) noexcept = default;
+
+void RecencyTapers::spectrum(std::span<const double> x, std::span<double> power) noexcept {
+  assert(power.size() == bins());
+  prepare(x.size());
+  std::ranges::fill(power, 0.0);
+  for (std::size_t k = 0; k < tapers_; ++k) {
+    const auto product = tapered(x, k);
+    std::fill(work_.begin() + static_cast<std::ptrdiff_t>(product.size()), work_.end(), 0.0);
+    transform_->add_power(work_, 1.0 / static_cast<double>(tapers_), power);
+  }
+}
+
+void RecencyTapers::autocovariance(std::span<const double> x, std::span<double> r) noexcept {
+  assert(r.size() <= x.size());
+  prepare(x.size());
+  std::ranges::fill(r, 0.0);
+  const auto product = [](auto a, auto b) { return a * b; };
+  for (std::size_t k = 0; k < tapers_; ++k) {
+    const std::span<const double> y = tapered(x, k);
+    for (std::size_t lag = 0; lag < r.size(); ++lag) {
+      r[lag] += sum_of(y.first(y.size() - lag), y.subspan(lag), product) / static_cast<double>(tapers_);
+    }
+  }
+}
+
+/// Makes the tapers for windows of this length, unless they are.
+void RecencyTapers::prepare(std::size_t samples) noexcept {
+  assert(samples >= 8 && samples <= max_samples_);
+  if (samples == samples_) return;
+  samples_ = samples;
+  for (std::size_t k = 0; k < tapers_; ++k) {
+    const std::span<double> row{table_.data() + k * max_samples_, samples};
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
+      const double phi = recency_ > 0.0 ? std::expm1(recency_ * u) / std::expm1(recency_) : u;
+      const double slope = recency_ > 0.0 ? std::exp(recency_ * u) : 1.0;
+      row[i] = std::sin(std::numbers::pi * static_cast<double>(k + 1) * phi) * std::sqrt(slope);
+    }
+    const double norm = std::sqrt(sum_of(row, [](auto t) { return t * t; }));
+    for (double& value : row) value /= norm;
+  }
+}
+
+std::span<const double> RecencyTapers::taper(std::size_t k) const noexcept {
+  return {table_.data() + k * max_samples_, samples_};
+}
+
+std::span<double> RecencyTapers::tapered(std::span<const double> x, std::size_t k) noexcept {
+  const auto weights = taper(k);
+  for (std::size_t i = 0; i < x.size(); ++i) work_[i] = weights[i] * x[i];
+  return {work_.data(), x.size()};
+}
+
+}  // namespace gyrod::core

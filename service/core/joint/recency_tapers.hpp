@@ -1,0 +1,54 @@
+/// Recency-warped sine tapers: spectra of a window that look at its newest part most.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace gyrod::core {
+
+/// For a window of n samples, u = (i + 1/2) / n, and phi(u) = (e^(kappa u) - 1) / (e^kappa - 1),
+///   t_k(i) = sin(pi k phi(u)) sqrt(phi'(u)),   k = 1..K,   scaled to sum_i t_k(i)^2 = 1.
+/// They stay orthogonal, as sine tapers are; the end of the window counts most.
+/// Sizes its workspace once; no call allocates after that. Not thread-safe.
+/// Source: Riedel, Sidorenko 1995 (sine tapers); the warp is our own (docs/method.md).
+class RecencyTapers {
+ public:
+  /// @param max_samples longest window, at least 8; spectra have the bins of the next power of two
+  RecencyTapers(std::size_t max_samples, std::size_t tapers, double recency);
+  ~RecencyTapers();
+  RecencyTapers(RecencyTapers&&) noexcept;
+  RecencyTapers& operator=(RecencyTapers&&) noexcept;
+
+  /// Length of the transform, a power of two.
+  [[nodiscard]] std::size_t transform_samples() const noexcept { return transform_samples_; }
+  /// Frequencies 2 pi k / transform_samples(), k = 0 .. transform_samples() / 2.
+  [[nodiscard]] std::size_t bins() const noexcept { return transform_samples_ / 2 + 1; }
+
+  /// Mean over the tapers of the periodogram |sum_i t_k(i) x_i e^-iwi|^2, unit^2 per sample: of white noise of variance s^2 it is
+  /// s^2 on average.
+  /// @pre 8 <= x.size() <= max_samples, power.size() == bins()
+  void spectrum(std::span<const double> x, std::span<double> power) noexcept;
+
+  /// Its autocovariances without the wrap-around: r_l = mean over tapers of sum_i t(i) x_i t(i+l) x_(i+l), l = 0..r.size()-1.
+  /// @pre as above, r.size() <= x.size()
+  void autocovariance(std::span<const double> x, std::span<double> r) noexcept;
+
+ private:
+  class Transform;
+  void prepare(std::size_t samples) noexcept;
+  [[nodiscard]] std::span<const double> taper(std::size_t k) const noexcept;
+  [[nodiscard]] std::span<double> tapered(std::span<const double> x, std::size_t k) noexcept;
+
+  std::size_t max_samples_;
+  std::size_t transform_samples_;
+  std::size_t tapers_;
+  double recency_;
+  std::size_t samples_ = 0;    ///< that the tapers stand for
+  std::vector<double> table_;  ///< tapers_ rows of max_samples_
+  std::vector<double> work_;
+  std::unique_ptr<Transform> transform_;
+};
+
+}  // namespace gyrod::core

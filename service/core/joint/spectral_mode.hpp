@@ -1,0 +1,40 @@
+/// The modes of a window: stationary processes whose sum is the signal.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/joint/joint_options.hpp"
+
+namespace gyrod::core {
+
+/// x[t] = a_1 x[t-1] + a_2 x[t-2] + a_3 x[t-3] + w[t],   w ~ N(0, drive), with the spectrum drive / |a(w)|^2.
+struct SpectralMode {
+  std::array<double, kModeOrder> a{};
+  double drive = 0.0;  ///< unit^2
+  bool slow = false;   ///< stands for all that is slower than T_slow
+};
+
+/// Up to kMaxModes of them; a plain value.
+class ModeSet {
+ public:
+  [[nodiscard]] std::span<SpectralMode> modes() noexcept { return {modes_.data(), count_}; }
+  [[nodiscard]] std::span<const SpectralMode> modes() const noexcept { return {modes_.data(), count_}; }
+  [[nodiscard]] std::size_t size() const noexcept { return count_; }
+  [[nodiscard]] bool full() const noexcept { return count_ == kMaxModes; }
+  void clear() noexcept { count_ = 0; }
+  /// @pre !full()
+  void add(const SpectralMode& mode) noexcept { modes_[count_++] = mode; }
+  /// @pre index < size()
+  void remove(std::size_t index) noexcept {
+    for (std::size_t i = index + 1; i < count_; ++i) modes_[i - 1] = modes_[i];
+    --count_;
+  }
+
+ private:
+  std::array<SpectralMode, kMaxModes> modes_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace gyrod::core

@@ -1,0 +1,65 @@
+/// Expectation-maximisation of modes in the Whittle likelihood.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/joint/joint_options.hpp"
+#include "core/joint/spectral_mode.hpp"
+#include "core/noise/noise_model.hpp"
+
+namespace gyrod::core {
+
+/// Fits the spectra of modes to a window's periodogram I beside the noise's known spectrum R:
+///   M(w) = sum_j S_j(w) + R(w),   S_j = drive_j / |a_j|^2,   ln L = -sum_w (ln M + I / M).
+/// One iteration: the expected periodogram of every mode given the sum,
+///   post_j = (S_j / M)^2 I + S_j (1 - S_j / M),
+/// its autocovariances, narrowed no further than a least bandwidth except for the slow mode, and Levinson's recursion.
+/// Sizes its workspace once; no call allocates after that. Not thread-safe.
+/// Source: Whittle 1953; Dempster, Laird, Rubin 1977; docs/method.md.
+class WhittleFit {
+ public:
+  /// @param transform_samples a power of two, at least 8: frequencies are 2 pi k / transform_samples, k = 0 .. half of it
+  WhittleFit(std::size_t transform_samples, double bandwidth_cycles);
+
+  /// Takes the window's periodogram and the noise, both in the same unit. The noise's spectrum is computed only where it changed.
+  /// @pre periodogram has transform_samples / 2 + 1 bins; is_usable(noise)
+  void observe(std::span<const double> periodogram, const NoiseModel& noise) noexcept;
+
+  /// Improves the modes. A mode that loses all its power has drive 0 and stays so.
+  void iterate(ModeSet& modes, int iterations) noexcept;
+
+  /// Takes out the weakest mode other than the slow one while what it adds to 2 ln L is below `gain`.
+  void prune(ModeSet& modes, double gain) noexcept;
+
+  /// ln L of these modes, up to a constant.
+  [[nodiscard]] double log_likelihood(const ModeSet& modes) noexcept;
+
+  /// The mode whose autocovariances r_0 .. r_kModeOrder are given.
+  [[nodiscard]] SpectralMode mode_of(std::span<const double> autocovariance, bool slow) const noexcept;
+
+ private:
+  void sum_spectra(const ModeSet& modes) noexcept;
+  void spectrum_of(const SpectralMode& mode, std::span<double> out) const noexcept;
+  void maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept;
+  [[nodiscard]] double gain_of(std::span<const double> spectrum) const noexcept;
+  [[nodiscard]] std::span<double> row(std::size_t mode) noexcept {
+    return {spectra_.data() + mode * bins_, bins_};
+  }
+
+  std::size_t bins_;
+  NoiseModel noise_model_;
+  std::array<double, kModeOrder + 1> narrowing_{};  ///< lag window of the modes that are not slow
+  std::vector<double> cosines_;                     ///< kModeOrder + 1 rows: cos(l w)
+  std::vector<double> sines_;
+  std::vector<double> weights_;  ///< the same cosines as weights of a bin in the autocovariance at lag l
+  std::vector<double> noise_;    ///< R
+  std::vector<double> observed_;
+  std::vector<double> sum_;        ///< M
+  std::vector<double> deviation_;  ///< (I - M) / M^2
+  std::vector<double> posterior_;
+  std::vector<double> spectra_;  ///< kMaxModes rows: S_j
+};
+
+}  // namespace gyrod::core

@@ -1,0 +1,50 @@
+#include "core/joint/member_model.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace gyrod::core {
+namespace {
+
+BlockSet one_block(double pole, double drive) {
+  BlockSet set;
+  set.add({.order = 1, .a = {pole}, .drive = drive, .signal = true});
+  return set;
+}
+
+TEST(MemberDesigner, MeetsTheScalarRiccatiEquation) {
+  // AR(1) in white noise: X = a^2 X r / (X + r) + q, K = X / (X + r); here a = 0.9, q = 0.5, r = 2.
+  const double a = 0.9;
+  const double q = 0.5;
+  const double r = 2.0;
+  const double b = r * (1.0 - a * a) - q;
+  const double X = 0.5 * (-b + std::sqrt(b * b + 4.0 * q * r));
+  MemberModel member;
+  ASSERT_TRUE(MemberDesigner().design(one_block(a, q), r, member));
+  EXPECT_NEAR(member.gain[0], X / (X + r), 1e-12);
+  EXPECT_NEAR(member.innovation_variance, X + r, 1e-12);
+  EXPECT_NEAR(member.prediction_variance, X, 1e-12);
+}
+
+TEST(MemberDesigner, SmoothsALevelWithTheClosedFormGains) {
+  // g_k = K (a (1 - K))^k for one pole.
+  const double a = 0.9;
+  MemberModel member;
+  ASSERT_TRUE(MemberDesigner().design(one_block(a, 0.5), 2.0, member));
+  const double K = member.gain[0];
+  for (std::size_t k = 0; k <= kMaxLag; ++k) {
+    EXPECT_NEAR(member.smoothing[k], K * std::pow(a * (1.0 - K), static_cast<double>(k)), 1e-12);
+  }
+}
+
+TEST(MemberDesigner, LeavesTheMemberAloneWhereItFails) {
+  MemberModel member;
+  member.states = 7;
+  EXPECT_FALSE(MemberDesigner().design(one_block(0.9, std::nan("")), 2.0, member));
+  EXPECT_EQ(member.states, 7U);
+  EXPECT_FALSE(member.usable);
+}
+
+}  // namespace
+}  // namespace gyrod::core
