@@ -29,7 +29,16 @@ Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMe
       sensor_(std::move(sensor)),
       jobs_(options.max_queued_windows) {
   if (models != nullptr) fast_loop.emplace(*models, options.lag_samples);
+  if (options.noise) noise = options.noise(sensor_);
+  if (options.learner) learner = options.learner(sensor_);
   hop_samples_ = static_cast<std::uint32_t>(options.hop_samples);
+}
+
+void Channel::append(const Sample& sample, bool measured) {
+  ring.append(sample, measured);
+  if (!learner) return;
+  learner->step(sample, measured);
+  if (const auto update = learner->update()) noise = *update;
 }
 
 bool Channel::has_room() const {
@@ -88,6 +97,17 @@ void Channel::count_bridged() {
 void Channel::count_widened() {
   const std::lock_guard lock(mutex_);
   ++counts_.hops_widened;
+}
+
+void Channel::count_realtime(std::size_t samples) {
+  const std::lock_guard lock(mutex_);
+  counts_.realtime += samples;
+}
+
+void Channel::count_misfits(std::uint64_t misfits) {
+  if (misfits == 0) return;
+  const std::lock_guard lock(mutex_);
+  counts_.misfits += misfits;
 }
 
 std::optional<WindowJob> Channel::begin_work(bool scheduled) {

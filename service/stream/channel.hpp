@@ -33,10 +33,16 @@ class Channel {
 
   // --- intake only
   // ---------------------------------------------------------------------------------------------------
+  /// Takes the newest sample into the ring, and shows it to who learns the noise.
+  void append(const Sample& sample, bool measured);
   SampleGate gate;
   HopSchedule schedule;
   SampleRing ring;
   std::optional<FastLoop> fast_loop;  ///< model methods only
+  /// Models in use are older than configured, or still missing. Model methods only.
+  bool models_late = false;
+  ChannelNoise noise;                     ///< what windows are given from now on
+  std::unique_ptr<NoiseLearner> learner;  ///< may be none
 
   /// True where one more position may be appended without overwriting what a window still needs.
   [[nodiscard]] bool has_room() const;
@@ -52,6 +58,9 @@ class Channel {
   void count_accepted(const Verdict& verdict);
   void count_bridged();
   void count_widened();
+  /// Counts estimates without look-ahead that were handed over.
+  void count_realtime(std::size_t samples);
+  void count_misfits(std::uint64_t misfits);
   /// The origin of the models that were offered since the last call, if any.
   [[nodiscard]] std::optional<ModelOrigin> take_models();
 

@@ -31,6 +31,8 @@ Counts& Counts::operator+=(const Counts& other) noexcept {
   passed_through += other.passed_through;
   hops_widened += other.hops_widened;
   overloads += other.overloads;
+  realtime += other.realtime;
+  misfits += other.misfits;
   return *this;
 }
 

@@ -47,6 +47,8 @@ struct Counts {
   std::uint64_t passed_through = 0;  ///< published with kPassThrough
   std::uint64_t hops_widened = 0;    ///< times overload step 1 was entered or deepened
   std::uint64_t overloads = 0;       ///< times overload step 2 (pass-through) was entered
+  std::uint64_t realtime = 0;        ///< estimates without look-ahead; stands beside promise 1
+  std::uint64_t misfits = 0;         ///< times the model of an axis ceased to explain the input
 
   [[nodiscard]] std::uint64_t rejected_total() const noexcept;
   Counts& operator+=(const Counts& other) noexcept;

@@ -49,6 +49,7 @@ Engine::Impl::Impl(EngineOptions options, MethodFactory method, Sink& sink, Cloc
     benches_.push_back(std::make_unique<Workbench>(options_, method_));
   constexpr std::size_t kOutboxSamples = 64;
   outbox_.reserve(kOutboxSamples);
+  realtime_outbox_.reserve(kOutboxSamples);
   if (options_.workers == 0) return;
   scheduler_.emplace(options_.workers, options_.max_channels, [this](std::size_t worker, Channel& channel) {
     work(channel, *benches_[worker], true);
@@ -57,6 +58,9 @@ Engine::Impl::Impl(EngineOptions options, MethodFactory method, Sink& sink, Cloc
 
 void Engine::Impl::submit(Channel& channel, WindowJob job) {
   job.sample_rate_hz = channel.gate.rate_hz();
+  job.noise = channel.noise;
+  job.at_rest = channel.learner && channel.learner->at_rest();
+  if (channel.fast_loop) job.model_fit = channel.fast_loop->model_fit();
   job.submitted_s = clock_();  // before the wait, which is part of the latency
   wait_while(channel, [&channel] { return !channel.can_submit(); });
   {
@@ -105,7 +109,7 @@ void Engine::Impl::release_report(Channel& channel, const WindowJob& job, const 
   sink_.on_report(channel.sensor(), report);
   channel.keep_report(report);
   if (!channel.fast_loop) return;
-  ModelOrigin origin{job.segment, report.model_epoch, report.noise_source, {}};
+  ModelOrigin origin{job.segment, job.end, report.model_epoch, report.noise_source, {}};
   for (std::size_t axis = 0; axis < kAxes; ++axis)
     origin.noise_floor_radps[axis] = report.axis[axis].noise_floor;
   channel.offer_models(origin);
@@ -173,7 +177,7 @@ std::vector<ChannelSnapshot> Engine::Impl::channels(std::size_t limit) const {
 }
 
 Engine::Engine(EngineOptions options, MethodFactory method, Sink& sink, Clock clock)
-    : impl_(std::make_unique<Impl>(options, std::move(method), sink, std::move(clock))) {}
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(method), sink, std::move(clock))) {}
 Engine::~Engine() { impl_->stop(std::chrono::milliseconds{0}); }
 
 std::size_t Engine::push(std::string_view sensor, std::span<const Sample> samples) noexcept {

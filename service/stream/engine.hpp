@@ -13,6 +13,7 @@
 
 #include "stream/counters.hpp"
 #include "stream/method.hpp"
+#include "stream/noise_learner.hpp"
 #include "stream/report.hpp"
 #include "stream/sample.hpp"
 
@@ -26,6 +27,10 @@ class Sink {
   virtual ~Sink() = default;
   /// @param sensor valid during the call
   virtual void on_samples(std::string_view sensor, std::span<const DenoisedSample> samples) noexcept = 0;
+  /// Model methods only: what the newest samples are taken for without look-ahead, one for each sample accepted, in order. From the
+  /// caller of Engine, before push() returns and before it waits for workers. The same samples come again by on_samples(), `lag` later.
+  virtual void on_realtime(std::string_view /*sensor*/,
+                           std::span<const DenoisedSample> /*samples*/) noexcept {}
   /// One report a window, after the window's samples.
   virtual void on_report(std::string_view sensor, const NoiseReport& report) noexcept = 0;
   /// The sensor has ended (end_of_stream), after the last of its samples and reports. A stop alone ends no
@@ -57,6 +62,12 @@ struct EngineOptions {
   std::size_t max_bridged_samples = 16;
   /// Age of a waiting window at which overload is declared, s. 0.01..3600.
   double max_delay_s = 1.0;
+  /// What is known beforehand of a sensor's noise: asked once, when its channel opens. May be empty: nothing. May throw std::bad_alloc
+  /// only, which refuses the channel.
+  std::function<ChannelNoise(std::string_view sensor)> noise;
+  /// Makes what learns a sensor's noise, when its channel opens; it may answer with none. May be empty: nobody learns. May throw
+  /// std::bad_alloc only.
+  std::function<std::unique_ptr<NoiseLearner>(std::string_view sensor)> learner;
 };
 
 /// Seconds of a steady clock; tests inject their own.
@@ -66,7 +77,7 @@ using Clock = std::function<double()>;
 /// thread); the snapshots from any thread at any time.
 class Engine {
  public:
-  /// @throws std::invalid_argument for an option outside its range, naming it
+  /// @throws std::invalid_argument for an option outside its range, naming it; std::runtime_error where a worker does not start
   Engine(EngineOptions options, MethodFactory method, Sink& sink, Clock clock = {});
   /// Stops as by stop() with a deadline of zero: what is not released by then passes through undenoised.
   ~Engine();

@@ -47,12 +47,14 @@ class Engine::Impl {
   void adjust_hop(Channel& channel);
 
   // Fast loop of model methods, in the thread that pushes (intake_models.cpp).
-  void step_fast_loop(Channel& channel, const Sample& newest);
+  void step_fast_loop(Channel& channel, const Sample& newest, bool measured);
+  [[nodiscard]] std::uint32_t state_flags(const Channel& channel) const;
   [[nodiscard]] bool adopt_models(Channel& channel);
-  void release_estimate(Channel& channel, Position position, const std::array<double, kAxes>& estimate,
+  [[nodiscard]] bool models_are_late(const Channel& channel) const;
+  void release_estimate(Channel& channel, Position position, const std::array<Estimate, kAxes>& estimate,
                         std::uint32_t flags);
   void release_held(Channel& channel);
-  void flush_outbox(Channel& channel);
+  void flush(Channel& channel);
 
   // Work, in a worker, or in the thread that pushes where that must not wait any longer (engine.cpp).
   void submit(Channel& channel, WindowJob job);
@@ -66,6 +68,7 @@ class Engine::Impl {
     while (condition()) {
       const auto oldest = channel.oldest_submission();
       if (oldest && too_late(*oldest) && work(channel, *benches_.back(), false)) continue;
+      flush(channel);
       wait_for_progress();
     }
   }
@@ -85,7 +88,9 @@ class Engine::Impl {
   mutable std::mutex idle_mutex_;
   std::condition_variable window_done_;
   std::size_t outstanding_ = 0;  ///< windows submitted and not done, behind idle_mutex_
+  // What the fast loop has made in this call of push(), of the one sensor that is pushed.
   std::vector<DenoisedSample> outbox_;
+  std::vector<DenoisedSample> realtime_outbox_;
   std::optional<Scheduler> scheduler_;  ///< last: its threads use all of the above
 };
 

@@ -5,15 +5,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "stream/method.hpp"
 #include "stream/sample.hpp"
+#include "stream/sample_ring.hpp"
 
 namespace gyrod::stream {
 
 /// Which window a model comes from, and what is known since then.
 struct ModelOrigin {
   std::uint64_t segment = 0;  ///< stretch of the channel that the window belongs to
+  Position window_end = 0;    ///< of the window
   std::uint64_t epoch = 0;
   NoiseSource noise_source = NoiseSource::kNone;
   std::array<double, kAxes> noise_floor_radps{};
@@ -29,16 +32,29 @@ class FastLoop {
     }
   }
 
-  /// Takes a sample (or a bridged position); returns the estimates for the position `lag` before it.
-  [[nodiscard]] std::array<double, kAxes> step(const std::array<double, kAxes>& rate_radps) noexcept {
-    std::array<double, kAxes> estimate{};
-    for (std::size_t axis = 0; axis < kAxes; ++axis) estimate[axis] = filters_[axis]->step(rate_radps[axis]);
-    return estimate;
+  /// What the filters make of the newest position.
+  struct Answer {
+    std::array<Estimate, kAxes> realtime;  ///< for this position
+    std::array<Estimate, kAxes> denoised;  ///< for the position `lag` before it
+  };
+
+  /// Takes a sample (or a bridged position).
+  [[nodiscard]] Answer step(const std::array<double, kAxes>& rate_radps) noexcept {
+    Answer answer;
+    misfit_ = false;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      const Estimates estimates = filters_[axis]->step(rate_radps[axis]);
+      answer.realtime[axis] = estimates.realtime;
+      answer.denoised[axis] = estimates.denoised;
+      model_fit_[axis] = filters_[axis]->model_fit();
+      misfit_ = misfit_ || model_fit_[axis].misfit;
+    }
+    return answer;
   }
 
   /// Estimates for the position `age` before the newest, 0 <= age < lag.
-  [[nodiscard]] std::array<double, kAxes> held(std::size_t age) const noexcept {
-    std::array<double, kAxes> estimate{};
+  [[nodiscard]] std::array<Estimate, kAxes> held(std::size_t age) const noexcept {
+    std::array<Estimate, kAxes> estimate{};
     for (std::size_t axis = 0; axis < kAxes; ++axis) estimate[axis] = filters_[axis]->held(age);
     return estimate;
   }
@@ -53,6 +69,20 @@ class FastLoop {
   void reset() noexcept {
     for (auto& filter : filters_) filter->reset();
     origin_ = {};
+    model_fit_ = {};
+    misfit_ = false;
+    misfits_told_ = 0;
+  }
+
+  /// As of the last step(), x, y, z.
+  [[nodiscard]] const std::array<ModelFit, kAxes>& model_fit() const noexcept { return model_fit_; }
+  /// The model of an axis does not explain the input.
+  [[nodiscard]] bool misfit() const noexcept { return misfit_; }
+  /// Times that began, over all axes, since the last call.
+  [[nodiscard]] std::uint64_t take_new_misfits() noexcept {
+    std::uint64_t misfits = 0;
+    for (const ModelFit& fit : model_fit_) misfits += fit.misfits;
+    return misfits - std::exchange(misfits_told_, misfits);
   }
 
   /// Of the models in use; epoch 0 where there are none yet.
@@ -65,6 +95,9 @@ class FastLoop {
   std::array<std::unique_ptr<SampleFilter>, kAxes> filters_;
   std::array<std::unique_ptr<Model>, kAxes> models_;
   ModelOrigin origin_;
+  std::array<ModelFit, kAxes> model_fit_;
+  bool misfit_ = false;
+  std::uint64_t misfits_told_ = 0;
 };
 
 }  // namespace gyrod::stream

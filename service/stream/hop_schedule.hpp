@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
+#include "stream/model_fit.hpp"
+#include "stream/noise_learner.hpp"
 #include "stream/sample.hpp"
 #include "stream/sample_ring.hpp"
 
@@ -23,6 +26,10 @@ struct WindowJob {
   bool ends_stream = false;       ///< the sensor has ended with this window
   double sample_rate_hz = 0.0;    ///< 0 while unknown
   double submitted_s = 0.0;       ///< engine clock
+  // As known when the window ended, so that they depend on sample numbers alone.
+  ChannelNoise noise;
+  bool at_rest = false;
+  std::optional<std::array<ModelFit, kAxes>> model_fit;  ///< model methods only
 };
 
 /// Cuts a channel's positions into windows. A window of at most `window` positions ends every `hop` positions

@@ -17,7 +17,7 @@ std::size_t Engine::Impl::push(std::string_view sensor, std::span<const Sample> 
   }
   std::size_t accepted = 0;
   for (const Sample& sample : samples) accepted += take(*channel, sample) ? 1U : 0U;
-  flush_outbox(*channel);
+  flush(*channel);
   return accepted;
 }
 
@@ -77,19 +77,20 @@ void Engine::Impl::bridge(Channel& channel, const Sample& next, std::uint64_t co
 
 void Engine::Impl::append(Channel& channel, const Sample& sample, bool measured) {
   wait_while(channel, [&channel] { return !channel.has_room(); });
-  channel.ring.append(sample, measured);
-  if (channel.fast_loop) step_fast_loop(channel, sample);
+  channel.append(sample, measured);
+  if (channel.fast_loop) step_fast_loop(channel, sample, measured);
   if (channel.schedule.at_boundary(channel.ring.end())) hop(channel);
 }
 
 /// A whole number of hops is full: makes the window that is due.
 void Engine::Impl::hop(Channel& channel) {
   adjust_hop(channel);
-  if (!channel.schedule.due(channel.ring.end())) return;
+  const bool due = channel.schedule.due(channel.ring.end());
   // A model method's fast loop takes over the models of the window before, and waits for them: that fixes the
   // moment.
-  if (channel.fast_loop && !adopt_models(channel)) return;
-  submit(channel, channel.schedule.take(channel.ring.end()));
+  const bool late = channel.fast_loop && due && !adopt_models(channel);
+  if (channel.fast_loop) channel.models_late = models_are_late(channel);
+  if (due && !late) submit(channel, channel.schedule.take(channel.ring.end()));
 }
 
 /// Overload step 1: windows that wait too long come less often.
@@ -109,6 +110,7 @@ void Engine::Impl::close_segment(Channel& channel, bool ends_stream) {
   if (channel.fast_loop) tail.begin = tail.end;
   tail.ends_stream = ends_stream;
   if (tail.begin < tail.end || ends_stream) submit(channel, tail);
+  if (channel.learner) channel.learner->reset_segment();
 }
 
 void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {

@@ -1,5 +1,6 @@
 /// The fast loop of model methods inside push(): step, hand-over, release.
 #include <algorithm>
+#include <cmath>
 
 #include "stream/engine_impl.hpp"
 
@@ -8,17 +9,46 @@ namespace {
 
 std::uint32_t bit(SampleFlag flag) { return static_cast<std::uint32_t>(flag); }
 
+/// The sample as it leaves, with what the models in use know.
+DenoisedSample estimated(const FastLoop& loop, const Sample& sample,
+                         const std::array<Estimate, kAxes>& estimate, std::uint32_t flags) {
+  DenoisedSample made{.sequence = sample.sequence,
+                      .stamp_ns = sample.stamp_ns,
+                      .flags = flags,
+                      .noise_source = loop.origin().noise_source,
+                      .noise_floor_radps = loop.origin().noise_floor_radps,
+                      .model_epoch = loop.origin().epoch};
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    made.rate_radps[axis] = estimate[axis].rate;
+    made.rate_std_radps[axis] = std::sqrt(estimate[axis].variance);
+  }
+  return made;
+}
+
 }  // namespace
 
-void Engine::Impl::step_fast_loop(Channel& channel, const Sample& newest) {
-  const auto estimate = channel.fast_loop->step(newest.rate_radps);
+void Engine::Impl::step_fast_loop(Channel& channel, const Sample& newest, bool measured) {
+  FastLoop& loop = *channel.fast_loop;
+  const FastLoop::Answer answer = loop.step(newest.rate_radps);
+  channel.count_misfits(loop.take_new_misfits());
+  std::uint32_t flags = state_flags(channel);
+  if (channel.schedule.widened() || channel.models_late) flags |= bit(SampleFlag::kHopWidened);
+  if (measured) {
+    if (realtime_outbox_.size() == realtime_outbox_.capacity()) flush(channel);
+    realtime_outbox_.push_back(estimated(loop, newest, answer.realtime, flags));
+  }
   const Position position = channel.ring.end() - 1 - static_cast<Position>(options_.lag_samples);
-  if (position < channel.schedule.segment_begin()) return;
+  if (position >= channel.schedule.segment_begin())
+    release_estimate(channel, position, answer.denoised, flags);
+}
+
+/// What the newest sample, and what is released with it, says of the channel: warming up, misfit.
+std::uint32_t Engine::Impl::state_flags(const Channel& channel) const {
   const Position length = channel.ring.end() - channel.schedule.segment_begin();
   std::uint32_t flags =
       length < static_cast<Position>(options_.window_samples) ? bit(SampleFlag::kWarmingUp) : 0U;
-  if (channel.schedule.widened()) flags |= bit(SampleFlag::kHopWidened);
-  release_estimate(channel, position, estimate, flags);
+  if (channel.fast_loop->misfit()) flags |= bit(SampleFlag::kModelMisfit);
+  return flags;
 }
 
 /// Waits for the window before this one and takes over its models.
@@ -27,9 +57,11 @@ bool Engine::Impl::adopt_models(Channel& channel) {
   while (const auto submitted = channel.oldest_submission()) {
     if (too_late(*submitted)) {
       if (work(channel, *benches_.back(), false)) continue;  // nobody has begun it: dropped
-      if (channel.schedule.widen()) channel.count_widened();
+      const bool in_force = channel.schedule.widened() || channel.models_late;
+      if (channel.schedule.widen() || !in_force) channel.count_widened();
       return false;
     }
+    flush(channel);
     wait_for_progress();
   }
   const auto origin = channel.take_models();
@@ -37,35 +69,43 @@ bool Engine::Impl::adopt_models(Channel& channel) {
   return true;
 }
 
+/// At a hop's end, new models having been taken over if there were any: whether those of the window that ended one configured hop
+/// before are not in use, though that window was long enough for models.
+bool Engine::Impl::models_are_late(const Channel& channel) const {
+  const Position due = channel.ring.end() - static_cast<Position>(options_.hop_samples);
+  const Position length =
+      std::min(due - channel.schedule.segment_begin(), static_cast<Position>(options_.window_samples));
+  const auto least = static_cast<Position>(benches_.back()->min_samples());
+  return length >= std::max<Position>(least, 1) && channel.fast_loop->origin().window_end != due;
+}
+
 void Engine::Impl::release_estimate(Channel& channel, Position position,
-                                    const std::array<double, kAxes>& estimate, std::uint32_t flags) {
+                                    const std::array<Estimate, kAxes>& estimate, std::uint32_t flags) {
   if (!channel.ring.measured(position)) return;
-  const Sample sample = channel.ring.at(position);
-  const ModelOrigin& origin = channel.fast_loop->origin();
-  if (outbox_.size() == outbox_.capacity()) flush_outbox(channel);
-  outbox_.push_back({.sequence = sample.sequence,
-                     .stamp_ns = sample.stamp_ns,
-                     .rate_radps = estimate,
-                     .flags = flags,
-                     .noise_source = origin.noise_source,
-                     .noise_floor_radps = origin.noise_floor_radps,
-                     .model_epoch = origin.epoch});
+  if (outbox_.size() == outbox_.capacity()) flush(channel);
+  outbox_.push_back(estimated(*channel.fast_loop, channel.ring.at(position), estimate, flags));
 }
 
 /// The last `lag` samples of a segment, with what look-ahead there is.
 void Engine::Impl::release_held(Channel& channel) {
   const Position end = channel.ring.end();
   const Position length = end - channel.schedule.segment_begin();
-  std::uint32_t flags = bit(SampleFlag::kTail);
-  if (length < static_cast<Position>(options_.window_samples)) flags |= bit(SampleFlag::kWarmingUp);
+  const std::uint32_t flags = state_flags(channel) | bit(SampleFlag::kTail);
   for (Position age = std::min(static_cast<Position>(options_.lag_samples), length) - 1; age >= 0; --age) {
     release_estimate(channel, end - 1 - age, channel.fast_loop->held(static_cast<std::size_t>(age)), flags);
   }
-  flush_outbox(channel);
+  flush(channel);
   channel.fast_loop->reset();
+  channel.models_late = false;
 }
 
-void Engine::Impl::flush_outbox(Channel& channel) {
+/// Hands over what this call of push() has made so far; the newest first, nobody waits for the others as much.
+void Engine::Impl::flush(Channel& channel) {
+  if (!realtime_outbox_.empty()) {
+    sink_.on_realtime(channel.sensor(), realtime_outbox_);
+    channel.count_realtime(realtime_outbox_.size());
+    realtime_outbox_.clear();
+  }
   if (outbox_.empty()) return;
   sink_.on_samples(channel.sensor(), outbox_);
   channel.count_published(outbox_);

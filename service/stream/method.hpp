@@ -15,9 +15,23 @@
 #include <variant>
 
 #include "core/denoise/window_report.hpp"
+#include "core/noise/noise_model.hpp"
+#include "stream/model_fit.hpp"
 #include "stream/sample.hpp"
 
 namespace gyrod::stream {
+
+/// What a method is given of one axis at a hop's end.
+struct WindowInput {
+  /// Finite values, rad/s, oldest first; min_samples() to window_samples of them.
+  std::span<const double> samples;
+  /// Hz; 0 while unknown.
+  double sample_rate_hz = 0.0;
+  /// Where `noise` comes from. kNone: the method judges by the window itself, and the report says kImf1.
+  NoiseSource noise_source = NoiseSource::kNone;
+  /// Of this axis, (rad/s)^2; meaningless for kNone.
+  core::NoiseModel noise;
+};
 
 /// One worker's copy of a window method. Owns its workspace; a call allocates nothing and is a pure function
 /// of its input.
@@ -27,9 +41,10 @@ class WindowMethod {
   /// Shortest window that can be denoised, samples; a shorter one is passed through by the engine.
   [[nodiscard]] virtual std::size_t min_samples() const noexcept = 0;
   /// Denoises one axis of one window.
-  /// @param window min_samples().. window_samples finite values, rad/s
-  /// @param out    same size, the denoised window
-  virtual void denoise(std::span<const double> window, std::span<double> out,
+  /// @param out    as many as the window's samples: the denoised window
+  /// @param report receives the figures, output_noise among them: it is published as every sample's standard
+  /// deviation
+  virtual void denoise(const WindowInput& window, std::span<double> out,
                        core::WindowReport& report) noexcept = 0;
 };
 
@@ -39,30 +54,45 @@ class Model {
   virtual ~Model() = default;
 };
 
-/// The fast loop of one axis. A call allocates nothing.
+/// An estimate of the true rate and of its error's variance.
+struct Estimate {
+  double rate = 0.0;      ///< rad/s
+  double variance = 0.0;  ///< (rad/s)^2; 0 where unknown
+};
+
+/// What a filter makes of one sample.
+struct Estimates {
+  Estimate realtime;  ///< of x[t] given x[..t]
+  Estimate denoised;  ///< of x[t - lag] given x[..t]
+};
+
+/// The fast loop of one axis. A call allocates nothing, and the answers are a pure function of the calls since reset().
 class SampleFilter {
  public:
   virtual ~SampleFilter() = default;
-  /// Uses this model from the next sample on. The filter keeps the recent samples that it needs for the
-  /// hand-over.
+  /// Uses this model from the next sample on. Must copy what it needs: the slow loop writes into the same object
+  /// again while the filter runs. The filter keeps the recent samples that it needs for the hand-over.
   virtual void use(const Model& model) noexcept = 0;
-  /// Takes the sample x[t]; returns the estimate of x[t - lag] given x[..t]. The first `lag` answers are not
-  /// used.
-  virtual double step(double sample) noexcept = 0;
+  /// Takes the sample x[t]. Before the first model it answers with an estimate of its own, the sample itself
+  /// where it has no better. The first `lag` answers of `denoised` are not used.
+  virtual Estimates step(double sample) noexcept = 0;
   /// The estimate of x[t - age] given all samples up to the newest, 0 <= age < lag: what a closing stream
   /// releases.
-  [[nodiscard]] virtual double held(std::size_t age) const noexcept = 0;
-  /// Forgets everything, as just opened.
+  [[nodiscard]] virtual Estimate held(std::size_t age) const noexcept = 0;
+  /// How well the model explains the samples up to the newest. Asked after every step.
+  [[nodiscard]] virtual ModelFit model_fit() const noexcept = 0;
+  /// Forgets everything, as just opened, also the counts of model_fit().
   virtual void reset() noexcept = 0;
 };
 
-/// One worker's copy of a model method's slow loop.
+/// One worker's copy of a model method's slow loop. A call allocates nothing and is a pure function of its
+/// input: the model, too, depends on the window alone, not on what it held before.
 class ModelMethod {
  public:
   virtual ~ModelMethod() = default;
   [[nodiscard]] virtual std::size_t min_samples() const noexcept = 0;
   /// Fits `model` to one axis of one window.
-  virtual void fit(std::span<const double> window, Model& model, core::WindowReport& report) noexcept = 0;
+  virtual void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept = 0;
 };
 
 /// Makes the parts of a window method.

@@ -1,7 +1,17 @@
 #include "stream/paper_method.hpp"
 
+#include <cassert>
+#include <optional>
+
 namespace gyrod::stream {
 namespace {
+
+/// Variance of the white noise, where it is known from elsewhere. The colour is left aside: the noise line is that of white noise.
+std::optional<double> known_noise(const WindowInput& window) noexcept {
+  if (window.noise_source < NoiseSource::kStandstill) return std::nullopt;
+  assert(core::is_usable(window.noise));
+  return window.noise.white_variance;
+}
 
 class PaperMethod final : public WindowMethod {
  public:
@@ -10,9 +20,9 @@ class PaperMethod final : public WindowMethod {
 
   [[nodiscard]] std::size_t min_samples() const noexcept override { return core::Denoiser::kMinSamples; }
 
-  void denoise(std::span<const double> window, std::span<double> out,
+  void denoise(const WindowInput& window, std::span<double> out,
                core::WindowReport& report) noexcept override {
-    denoiser_.denoise(window, out, report);
+    denoiser_.denoise(window.samples, out, report, known_noise(window));
   }
 
  private:

@@ -6,7 +6,8 @@
 
 namespace gyrod::stream {
 
-/// Windowed improved EMD with AR-Kalman filtering of the mixed modes: core::Denoiser on every window.
+/// Windowed improved EMD with AR-Kalman filtering of the mixed modes: core::Denoiser on every window. Noise known from a calibration or
+/// a standstill takes the place of IMF 1's.
 [[nodiscard]] WindowMethodFactory paper_method(const core::DenoiserOptions& options);
 
 }  // namespace gyrod::stream

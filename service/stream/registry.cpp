@@ -23,7 +23,12 @@ bool Registry::full() const { return size() >= max_channels_; }
 Channel& Registry::open(std::unique_ptr<Channel> channel) {
   const std::unique_lock lock(mutex_);
   Channel& opened = *channels_.emplace_back(std::move(channel));
-  by_sensor_.emplace(opened.sensor(), &opened);
+  try {
+    by_sensor_.emplace(opened.sensor(), &opened);
+  } catch (...) {
+    channels_.pop_back();  // not half open: counted against the limit, and found by nobody
+    throw;
+  }
   return opened;
 }
 

@@ -25,6 +25,7 @@ class Registry {
 
   [[nodiscard]] Channel* find(std::string_view sensor) const;
   [[nodiscard]] bool full() const;
+  /// @throws std::bad_alloc, and is then as before
   Channel& open(std::unique_ptr<Channel> channel);
   [[nodiscard]] std::size_t size() const;
 

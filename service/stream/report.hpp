@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "core/denoise/window_report.hpp"
+#include "stream/model_fit.hpp"
 #include "stream/sample.hpp"
 
 namespace gyrod::stream {
@@ -27,6 +29,10 @@ struct NoiseReport {
   double window_time_s = 0.0;
   /// Figures of x, y, z; energies and floors in rad/s.
   std::array<core::WindowReport, kAxes> axis{};
+  /// Of the models that were in use when the window ended, x, y, z; none with a window method.
+  std::optional<std::array<ModelFit, kAxes>> model_fit;
+  /// The sensor was at rest when the window ended; false where nobody looks.
+  bool at_rest = false;
 };
 
 }  // namespace gyrod::stream

@@ -27,8 +27,10 @@ enum class SampleFlag : std::uint32_t {
   kTail = 1U << 1U,
   /// Undenoised: the window was too short to decompose, or overload step 2 is in force.
   kPassThrough = 1U << 2U,
-  /// Overload step 1 was in force: the hop was wider than configured.
+  /// Overload step 1 was in force: the hop was wider, or the model older, than configured.
   kHopWidened = 1U << 3U,
+  /// The model does not explain the input: the standard deviation is not to be trusted. Model methods only.
+  kModelMisfit = 1U << 4U,
 };
 
 /// Where a noise floor comes from, best source last.
@@ -44,6 +46,8 @@ struct DenoisedSample {
   std::uint64_t sequence = 0;
   std::int64_t stamp_ns = 0;
   std::array<double, kAxes> rate_radps{};
+  /// Estimated standard deviation of the error of rate_radps, per axis, rad/s; 0 if unknown.
+  std::array<double, kAxes> rate_std_radps{};
   /// SampleFlag bits.
   std::uint32_t flags = 0;
   NoiseSource noise_source = NoiseSource::kNone;

@@ -1,6 +1,9 @@
 #include "stream/scheduler.hpp"
 
 #include <cassert>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace gyrod::stream {
@@ -8,8 +11,15 @@ namespace gyrod::stream {
 Scheduler::Scheduler(std::size_t workers, std::size_t capacity, Work work)
     : work_(std::move(work)), queue_(capacity) {
   threads_.reserve(workers);
-  for (std::size_t worker = 0; worker < workers; ++worker)
-    threads_.emplace_back([this, worker] { run(worker); });
+  try {
+    while (threads_.size() < workers)
+      threads_.emplace_back([this, worker = threads_.size()] { run(worker); });
+  } catch (const std::system_error& error) {
+    const std::size_t started = threads_.size();
+    stop();
+    throw std::runtime_error("workers: thread " + std::to_string(started + 1) + " of " +
+                             std::to_string(workers) + " does not start: " + error.code().message());
+  }
 }
 
 Scheduler::~Scheduler() { stop(); }

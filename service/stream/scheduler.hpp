@@ -21,6 +21,7 @@ class Scheduler {
   using Work = std::function<void(std::size_t worker, Channel& channel)>;
 
   /// @param capacity most channels that there will be
+  /// @throws std::runtime_error where the system starts fewer threads than `workers`; those that run are ended
   Scheduler(std::size_t workers, std::size_t capacity, Work work);
   /// As stop().
   ~Scheduler();

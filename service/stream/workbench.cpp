@@ -49,16 +49,14 @@ void Workbench::collect(const Channel& channel, const WindowJob& job) noexcept {
 }
 
 void Workbench::denoise(WindowMethod& method, const Channel& channel, const WindowJob& job) noexcept {
-  const auto length = static_cast<std::size_t>(job.end - job.begin);
-  const std::span<double> window{window_.data(), length};
-  const std::span<double> denoised{denoised_.data(), length};
+  const std::span<double> denoised{denoised_.data(), static_cast<std::size_t>(job.end - job.begin)};
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    channel.ring.copy(axis, job.begin, window);
-    method.denoise(window, denoised, report_.axis[axis]);
+    method.denoise(input(channel, job, axis), denoised, report_.axis[axis]);
     std::size_t index = 0;
     for (Position position = job.release_begin; position < job.release_end; ++position) {
       if (!channel.ring.measured(position)) continue;
       samples_[index].rate_radps[axis] = denoised[static_cast<std::size_t>(position - job.begin)];
+      samples_[index].rate_std_radps[axis] = report_.axis[axis].output_noise;
       samples_[index].noise_floor_radps[axis] = report_.axis[axis].noise_floor;
       ++index;
     }
@@ -66,11 +64,18 @@ void Workbench::denoise(WindowMethod& method, const Channel& channel, const Wind
 }
 
 void Workbench::fit(ModelMethod& method, Channel& channel, const WindowJob& job) noexcept {
-  const std::span<double> window{window_.data(), static_cast<std::size_t>(job.end - job.begin)};
-  for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    channel.ring.copy(axis, job.begin, window);
-    method.fit(window, channel.fast_loop->model(axis), report_.axis[axis]);
-  }
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
+    method.fit(input(channel, job, axis), channel.fast_loop->model(axis), report_.axis[axis]);
+}
+
+/// One axis of the window. Valid until the next call.
+WindowInput Workbench::input(const Channel& channel, const WindowJob& job, std::size_t axis) noexcept {
+  const std::span<double> samples{window_.data(), static_cast<std::size_t>(job.end - job.begin)};
+  channel.ring.copy(axis, job.begin, samples);
+  return {.samples = samples,
+          .sample_rate_hz = job.sample_rate_hz,
+          .noise_source = job.noise.source,
+          .noise = job.noise.axis[axis]};
 }
 
 /// The report's frame around the axes' figures, and the epoch of the samples.
@@ -82,7 +87,9 @@ void Workbench::describe(Channel& channel, const WindowJob& job) noexcept {
   report_.lag_samples = static_cast<std::uint32_t>(job.end - job.release_end);
   report_.hop_samples = job.hop_samples;
   report_.sample_rate_hz = job.sample_rate_hz;
-  report_.noise_source = NoiseSource::kImf1;
+  report_.noise_source = job.noise.source == NoiseSource::kNone ? NoiseSource::kImf1 : job.noise.source;
+  report_.model_fit = job.model_fit;
+  report_.at_rest = job.at_rest;
   report_.flags = job.flags;
   for (auto& sample : samples_) {
     sample.model_epoch = report_.model_epoch;

@@ -30,6 +30,8 @@ class Workbench {
   /// False where the last job was passed through: there is nothing to report.
   [[nodiscard]] bool has_report() const noexcept { return has_report_; }
 
+  /// Shortest window that the method takes.
+  [[nodiscard]] std::size_t min_samples() const noexcept;
   /// Time that work() took, for the report.
   void set_window_time(double seconds) noexcept { report_.window_time_s = seconds; }
   /// Adds to the histograms of this worker.
@@ -42,7 +44,7 @@ class Workbench {
   void denoise(WindowMethod& method, const Channel& channel, const WindowJob& job) noexcept;
   void fit(ModelMethod& method, Channel& channel, const WindowJob& job) noexcept;
   void describe(Channel& channel, const WindowJob& job) noexcept;
-  [[nodiscard]] std::size_t min_samples() const noexcept;
+  [[nodiscard]] WindowInput input(const Channel& channel, const WindowJob& job, std::size_t axis) noexcept;
 
   std::variant<std::unique_ptr<WindowMethod>, std::unique_ptr<ModelMethod>> method_;
   std::vector<double> window_;

@@ -20,6 +20,13 @@ class RecordingSink : public stream::Sink {
     auto& all = samples_[std::string{sensor}];
     all.insert(all.end(), samples.begin(), samples.end());
   }
+  void on_realtime(std::string_view sensor,
+                   std::span<const stream::DenoisedSample> samples) noexcept override {
+    const std::lock_guard lock(mutex_);
+    auto& all = realtime_[std::string{sensor}];
+    all.insert(all.end(), samples.begin(), samples.end());
+    realtime_calls_.push_back(samples.size());
+  }
   void on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept override {
     const std::lock_guard lock(mutex_);
     reports_[std::string{sensor}].push_back(report);
@@ -39,6 +46,16 @@ class RecordingSink : public stream::Sink {
     const auto found = samples_.find(sensor);
     return found == samples_.end() ? std::vector<stream::DenoisedSample>{} : found->second;
   }
+  [[nodiscard]] std::vector<stream::DenoisedSample> realtime(const std::string& sensor) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = realtime_.find(sensor);
+    return found == realtime_.end() ? std::vector<stream::DenoisedSample>{} : found->second;
+  }
+  /// Samples of each call of on_realtime(), any sensor.
+  [[nodiscard]] std::vector<std::size_t> realtime_calls() const {
+    const std::lock_guard lock(mutex_);
+    return realtime_calls_;
+  }
   [[nodiscard]] std::vector<stream::NoiseReport> reports(const std::string& sensor) const {
     const std::lock_guard lock(mutex_);
     const auto found = reports_.find(sensor);
@@ -48,6 +65,8 @@ class RecordingSink : public stream::Sink {
  private:
   mutable std::mutex mutex_;
   std::map<std::string, std::vector<stream::DenoisedSample>> samples_;
+  std::map<std::string, std::vector<stream::DenoisedSample>> realtime_;
+  std::vector<std::size_t> realtime_calls_;
   std::map<std::string, std::vector<stream::NoiseReport>> reports_;
   std::map<std::string, std::vector<std::size_t>> ended_after_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -16,17 +17,19 @@ class WindowMarker final : public stream::WindowMethod {
  public:
   explicit WindowMarker(std::function<void()> on_window) : on_window_(std::move(on_window)) {}
   [[nodiscard]] std::size_t min_samples() const noexcept override { return 16; }
-  void denoise(std::span<const double> window, std::span<double> out,
+  void denoise(const stream::WindowInput& window, std::span<double> out,
                core::WindowReport& report) noexcept override {
     if (on_window_) on_window_();
     double sum = 0.0;
-    for (const double value : window) sum += value;
+    for (const double value : window.samples) sum += value;
+    const auto size = static_cast<double>(window.samples.size());
     report = {};
-    report.window_samples = window.size();
-    report.mean = sum / static_cast<double>(window.size());
-    for (std::size_t n = 0; n < window.size(); ++n) {
-      out[n] = window[n] + 1e-3 * static_cast<double>(window.size()) + 1e-6 * report.mean;
-    }
+    report.window_samples = window.samples.size();
+    report.mean = sum / size;
+    report.noise_floor = std::sqrt(window.noise.white_variance);
+    report.output_noise = 0.5 * size;
+    for (std::size_t n = 0; n < out.size(); ++n)
+      out[n] = window.samples[n] + 1e-3 * size + 1e-6 * report.mean;
   }
 
  private:
@@ -37,8 +40,11 @@ class WindowMarker final : public stream::WindowMethod {
   return {[on_window](std::size_t) { return std::make_unique<WindowMarker>(on_window); }};
 }
 
-/// Model method: the model is the last sample of its window; the filter answers x[t - lag] + 1000 * model.
-/// With samples that count up, the answer tells which window's model was in use.
+/// Model method: the model is the last sample of its window; the filter answers x[t - lag] + 1000 * model, and in real time
+/// x[t] + 1000 * model, with the model's square plus one as variance. With samples that count up, the answer tells which window's model
+/// was in use. A rate below kMisfit does not fit the model.
+inline constexpr double kMisfit = -1e5;
+
 struct LastSampleModel final : stream::Model {
   double last = 0.0;
 };
@@ -49,35 +55,43 @@ class LastSampleFilter final : public stream::SampleFilter {
   void use(const stream::Model& model) noexcept override {
     last_ = static_cast<const LastSampleModel&>(model).last;
   }
-  double step(double sample) noexcept override {
+  stream::Estimates step(double sample) noexcept override {
     recent_[next_++ % recent_.size()] = sample;
-    return answer(recent_.size() - 1);
+    const bool misfit = sample < kMisfit;
+    fit_.misfits += misfit && !fit_.misfit ? 1U : 0U;
+    fit_.misfit = misfit;
+    fit_.normalised_innovation = misfit ? 9.0 : 1.0;
+    return {answer(0), answer(recent_.size() - 1)};
   }
-  [[nodiscard]] double held(std::size_t age) const noexcept override { return answer(age); }
+  [[nodiscard]] stream::Estimate held(std::size_t age) const noexcept override { return answer(age); }
+  [[nodiscard]] stream::ModelFit model_fit() const noexcept override { return fit_; }
   void reset() noexcept override {
     next_ = 0;
     last_ = 0.0;
+    fit_ = {};
   }
 
  private:
-  [[nodiscard]] double answer(std::size_t age) const noexcept {
-    return next_ <= age ? 0.0 : recent_[(next_ - 1 - age) % recent_.size()] + 1000.0 * last_;
+  [[nodiscard]] stream::Estimate answer(std::size_t age) const noexcept {
+    if (next_ <= age) return {};
+    return {recent_[(next_ - 1 - age) % recent_.size()] + 1000.0 * last_, last_ * last_ + 1.0};
   }
   std::vector<double> recent_;
   std::size_t next_ = 0;
   double last_ = 0.0;
+  stream::ModelFit fit_;
 };
 
 class LastSampleMethod final : public stream::ModelMethod {
  public:
   explicit LastSampleMethod(std::function<void()> on_window) : on_window_(std::move(on_window)) {}
   [[nodiscard]] std::size_t min_samples() const noexcept override { return 1; }
-  void fit(std::span<const double> window, stream::Model& model,
+  void fit(const stream::WindowInput& window, stream::Model& model,
            core::WindowReport& report) noexcept override {
     if (on_window_) on_window_();
     report = {};
-    report.noise_floor = window.back();
-    static_cast<LastSampleModel&>(model).last = window.back();
+    report.noise_floor = window.samples.back();
+    static_cast<LastSampleModel&>(model).last = window.samples.back();
   }
 
  private:

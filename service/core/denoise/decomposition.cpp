@@ -27,10 +27,11 @@ Decomposition::Decomposition(std::size_t max_samples, const EmdOptions& emd,
   reference_.resize(max_samples_);
 }
 
-void Decomposition::take_apart(std::span<const double> window, WindowReport& report) noexcept {
+void Decomposition::take_apart(std::span<const double> window, WindowReport& report,
+                               std::optional<double> noise_variance) noexcept {
   samples_ = window.size();
-  decompose(window, report);  // eq. (1), and the ACF boundary k, eq. (3)
-  screen(window, report);     // the PCC boundary j, eq. (2), and the partition, eq. (4)
+  decompose(window, report, noise_variance);  // eq. (1), and the ACF boundary k, eq. (3)
+  screen(window, report);                     // the PCC boundary j, eq. (2), and the partition, eq. (4)
 }
 
 double Decomposition::white_noise_variance_of(std::span<const double> window) noexcept {
@@ -39,15 +40,16 @@ double Decomposition::white_noise_variance_of(std::span<const double> window) no
   return emd_.next_imf(imf(0)) ? white_noise_variance(variance(imf(0))) : 0.0;
 }
 
-void Decomposition::decompose(std::span<const double> window, WindowReport& report) noexcept {
+void Decomposition::decompose(std::span<const double> window, WindowReport& report,
+                              std::optional<double> known_variance) noexcept {
   const bool stop_at_signal = screening_.rule == ScreeningRule::kWindowed;
   emd_.start(window);
-  double noise_variance = 0.0;
+  double noise_variance = known_variance.value_or(0.0);
   bool signal_found = false;
   while (emd_.next_imf(imf(report.imf_count))) {
     const std::size_t index = ++report.imf_count;
     const auto mode = imf(index - 1);
-    if (index == 1) noise_variance = white_noise_variance(variance(mode));
+    if (index == 1 && !known_variance) noise_variance = white_noise_variance(variance(mode));
     ImfFigures& figures = report.imf[index - 1];
     figures = imf_figures(mode, index, noise_variance, autocorrelation_);
     signal_found = signal_found || is_signal(figures, screening_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,10 @@ class Decomposition {
   /// Decomposes and screens. Under the windowed rule decomposing ends after the first signal IMF: what remains beside it is kept
   /// anyway.
   /// @param report receives IMF figures, classes, j, k and noise floor; the rest stays as it is
+  /// @param noise_variance of the white noise where it is known, unit^2; none: what IMF 1 stands for
   /// @pre 1 <= window.size() <= max_samples, every value finite
-  void take_apart(std::span<const double> window, WindowReport& report) noexcept;
+  void take_apart(std::span<const double> window, WindowReport& report,
+                  std::optional<double> noise_variance = {}) noexcept;
 
   /// Takes out IMF 1 alone. @return variance of the white noise that it stands for, unit^2; 0 where there is no IMF
   [[nodiscard]] double white_noise_variance_of(std::span<const double> window) noexcept;
@@ -36,7 +39,8 @@ class Decomposition {
   void reconstruct(std::size_t first, std::size_t count, std::span<double> out) const noexcept;
 
  private:
-  void decompose(std::span<const double> window, WindowReport& report) noexcept;
+  void decompose(std::span<const double> window, WindowReport& report,
+                 std::optional<double> known_variance) noexcept;
   void screen(std::span<const double> window, WindowReport& report) noexcept;
 
   ScreeningOptions screening_;

@@ -25,7 +25,8 @@ Denoiser::Denoiser(std::size_t max_samples, const DenoiserOptions& options)
       decomposition_(max_samples_, options.emd, options.screening),
       model_filter_(max_samples_, options.models, options.max_ar_order) {}
 
-void Denoiser::denoise(std::span<const double> window, std::span<double> out, WindowReport& report) noexcept {
+void Denoiser::denoise(std::span<const double> window, std::span<double> out, WindowReport& report,
+                       std::optional<double> noise_variance) noexcept {
   assert(window.size() >= kMinSamples && window.size() <= max_samples_ && out.size() == window.size());
   report = WindowReport{};
   report.window_samples = window.size();
@@ -35,16 +36,16 @@ void Denoiser::denoise(std::span<const double> window, std::span<double> out, Wi
     return;
   }
   if (options_.scheme == Scheme::kDirect) {
-    filter_directly(window, out, report);
+    filter_directly(window, out, report, noise_variance);
   } else {
-    decompose_and_filter(window, out, report);
+    decompose_and_filter(window, out, report, noise_variance);
   }
   if (options_.keep_mean) give_mean(report.mean, out);
 }
 
 void Denoiser::decompose_and_filter(std::span<const double> window, std::span<double> out,
-                                    WindowReport& report) noexcept {
-  decomposition_.take_apart(window, report);  // eqs. (1) to (4)
+                                    WindowReport& report, std::optional<double> noise_variance) noexcept {
+  decomposition_.take_apart(window, report, noise_variance);  // eqs. (1) to (4)
   const std::size_t first = first_kept(options_.scheme, report);
   if (options_.scheme == Scheme::kImproved) {
     filter_mixed(report);  // models, eq. (5), and Kalman filters, eq. (6)
@@ -55,9 +56,10 @@ void Denoiser::decompose_and_filter(std::span<const double> window, std::span<do
   decomposition_.reconstruct(first, report.imf_count, out);  // eq. (7)
 }
 
-void Denoiser::filter_directly(std::span<const double> window, std::span<double> out,
-                               WindowReport& report) noexcept {
-  report.noise_floor = std::sqrt(decomposition_.white_noise_variance_of(window));
+void Denoiser::filter_directly(std::span<const double> window, std::span<double> out, WindowReport& report,
+                               std::optional<double> noise_variance) noexcept {
+  report.noise_floor =
+      std::sqrt(noise_variance ? *noise_variance : decomposition_.white_noise_variance_of(window));
   std::ranges::transform(window, out.begin(), [&report](double value) { return value - report.mean; });
   const FilterNoise noise = filter_noise_of_record(report, variance(out));
   report.direct_model = model_filter_.filter(out, noise);

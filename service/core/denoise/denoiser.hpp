@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "core/denoise/decomposition.hpp"
@@ -40,13 +41,16 @@ class Denoiser {
   /// @param window uniformly sampled, finite, any unit
   /// @param out    the denoised window, may not overlap `window`
   /// @param report the figures behind the result; the scheme raw finds out nothing but the mean, and direct no IMFs
+  /// @param noise_variance of the input's white noise where it is known from elsewhere, unit^2, positive; none: found from IMF 1
   /// @pre kMinSamples <= window.size() <= max_samples, out.size() == window.size()
-  void denoise(std::span<const double> window, std::span<double> out, WindowReport& report) noexcept;
+  void denoise(std::span<const double> window, std::span<double> out, WindowReport& report,
+               std::optional<double> noise_variance = {}) noexcept;
 
  private:
-  void filter_directly(std::span<const double> window, std::span<double> out, WindowReport& report) noexcept;
-  void decompose_and_filter(std::span<const double> window, std::span<double> out,
-                            WindowReport& report) noexcept;
+  void filter_directly(std::span<const double> window, std::span<double> out, WindowReport& report,
+                       std::optional<double> noise_variance) noexcept;
+  void decompose_and_filter(std::span<const double> window, std::span<double> out, WindowReport& report,
+                            std::optional<double> noise_variance) noexcept;
   void filter_mixed(WindowReport& report) noexcept;
 
   DenoiserOptions options_;

@@ -84,6 +84,13 @@ struct WindowReport {
   double output_noise = 0.0;
   /// Mean of the window, in the input's unit.
   double mean = 0.0;
+  // Model methods only; else 0.
+  /// Components of the joint model beside its slowest part.
+  std::size_t modes = 0;
+  /// The strongest periodic disturbance that the model holds, cycles per sample, 0 to 0.5; 0 where there is none.
+  double tone_frequency_cycles = 0.0;
+  /// Its amplitude, in the input's unit.
+  double tone_amplitude = 0.0;
   /// Model of the window itself (scheme direct only; else none).
   ModelFigures direct_model;
   std::array<ImfFigures, kMaxImfs> imf{};

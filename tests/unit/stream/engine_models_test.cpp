@@ -37,20 +37,28 @@ TEST(EngineWithModels, ADelayedWorkerChangesNoBits) {
     for (const Sample& sample : counting_samples(640)) engine.push("imu", {&sample, 1});
     engine.end_of_stream("imu");
     engine.wait_idle();
-    return sink.samples("imu");
+    return std::pair{sink.samples("imu"), sink.realtime("imu")};
   };
   const auto slow = [] {
     for (int i = 0; i < 1000; ++i) std::this_thread::yield();
   };
-  EXPECT_TRUE(same_bits(run(1, slow), run(0, {})));
+  const auto [delayed, delayed_realtime] = run(1, slow);
+  const auto [undisturbed, realtime] = run(0, {});
+  EXPECT_TRUE(same_bits(delayed, undisturbed));
+  EXPECT_TRUE(same_bits(delayed_realtime, realtime));
 }
 
-TEST(EngineWithModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooLate) {
+/// The widest hop; 32 is the hop itself, so that overload step 1 shows in the models' age alone.
+class EngineWithLateModels : public ::testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(WidestHop, EngineWithLateModels, ::testing::Values(32, 64));
+
+TEST_P(EngineWithLateModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooLate) {
   RecordingSink sink;
   Gatekeeper gate;
   std::atomic<double> now{0.0};
   EngineOptions options = small_options(1);
   options.max_delay_s = 1.0;
+  options.max_hop_samples = GetParam();
   Engine engine(options, testing::last_sample_method([&gate] { gate.pass(); }), sink,
                 [&now] { return now.load(); });
   gate.set_open(false);
@@ -61,8 +69,14 @@ TEST(EngineWithModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooLate) {
   const auto output = sink.samples("imu");
   ASSERT_EQ(output.size(), 124U);
   EXPECT_EQ(output.back().rate_radps[0], 123.0) << "no model yet, but an answer";
-  EXPECT_NE(output.back().flags & static_cast<std::uint32_t>(SampleFlag::kHopWidened), 0U);
+  EXPECT_TRUE(has_flag(output.back(), SampleFlag::kHopWidened));
+  EXPECT_TRUE(has_flag(sink.realtime("imu").back(), SampleFlag::kHopWidened));
+  EXPECT_GE(engine.snapshot().totals.hops_widened, 1U);
   gate.set_open(true);
+  now = 5.0;
+  engine.wait_idle();
+  engine.push("imu", counting_samples(180, 140));  // hops 5 to 10 end in time
+  EXPECT_FALSE(has_flag(sink.realtime("imu").back(), SampleFlag::kHopWidened)) << "models are as young again";
   engine.stop(std::chrono::seconds{60});
   expect_conserved(engine.snapshot().totals);
   EXPECT_EQ(engine.snapshot().totals.in_flight, 0U);

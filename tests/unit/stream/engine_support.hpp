@@ -46,12 +46,16 @@ inline std::vector<std::uint64_t> sequences(const std::vector<DenoisedSample>& s
 }
 
 inline bool same_bits(const std::vector<DenoisedSample>& a, const std::vector<DenoisedSample>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const DenoisedSample& x, const DenoisedSample& y) {
-                      return x.sequence == y.sequence && x.stamp_ns == y.stamp_ns &&
-                             x.rate_radps == y.rate_radps && x.flags == y.flags &&
-                             x.noise_floor_radps == y.noise_floor_radps && x.model_epoch == y.model_epoch;
-                    });
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [](const DenoisedSample& x, const DenoisedSample& y) {
+        return x.sequence == y.sequence && x.stamp_ns == y.stamp_ns && x.rate_radps == y.rate_radps &&
+               x.rate_std_radps == y.rate_std_radps && x.flags == y.flags &&
+               x.noise_floor_radps == y.noise_floor_radps && x.model_epoch == y.model_epoch;
+      });
+}
+
+[[nodiscard]] inline bool has_flag(const DenoisedSample& sample, SampleFlag flag) {
+  return (sample.flags & static_cast<std::uint32_t>(flag)) != 0;
 }
 
 /// Lets tests hold workers inside a window.

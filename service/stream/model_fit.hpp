@@ -1,0 +1,23 @@
+/// How well a model that filters sample by sample explains what comes in.
+#pragma once
+
+#include <cstdint>
+
+namespace gyrod::stream {
+
+/// Of one axis, since its filter was opened or reset. With the innovation nu[t] = z[t] - (the model's prediction of z[t] from
+/// z[..t-1]) and S[t] its variance as the model has it, nu^2 / S is 1 on average where the model holds.
+struct ModelFit {
+  /// Mean of nu^2 / S over about the last second or seconds. 1 where nothing is known.
+  double normalised_innovation = 1.0;
+  /// The model does not explain the input: the published standard deviation is not to be trusted.
+  bool misfit = false;
+  /// Times `misfit` was entered.
+  std::uint64_t misfits = 0;
+  /// Parts of a model (of all models used) that could not be made from their window and stayed as they were before.
+  std::uint64_t fallbacks = 0;
+
+  friend bool operator==(const ModelFit&, const ModelFit&) = default;
+};
+
+}  // namespace gyrod::stream
