@@ -1,0 +1,28 @@
+/// Noise model of one axis from a stretch of recording in which the sensor did not move.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/noise/noise_fit.hpp"
+#include "core/noise/noise_model.hpp"
+
+namespace gyrod::core {
+
+/// Fewest samples that still_noise() takes: six segments, which give the level to about 3 %.
+inline constexpr std::size_t kMinStillSamples = 2000;
+
+/// A learned level is used this much higher, as an amplitude: a level that is too low costs more than one that is too high. Two
+/// standard errors of the level after 60 s at 100 Hz (1 / sqrt(2 * 6000) = 0.9 % each), and what it drifts in hours.
+inline constexpr double kNoiseMargin = 1.02;
+
+/// Fits white noise plus AR(8) to a still stretch (fit_noise()), from Hann-tapered segments of kNoiseSegment samples, half overlapping,
+/// each without its straight line: mean, drift and what is slower than 200 samples do not count. A segment whose variance
+/// exceeds 1.5 times the median (a shock) is left out. The model is the measured one, without kNoiseMargin.
+/// @param still samples of one axis, finite, in any unit; the model is in that unit
+/// @return nothing for fewer than kMinStillSamples, and where the samples do not change or mostly do not
+/// Allocates; takes about 4 us per segment.
+[[nodiscard]] std::optional<NoiseModel> still_noise(std::span<const double> still);
+
+}  // namespace gyrod::core

@@ -1,0 +1,37 @@
+/// Power spectrum of a short stretch of a signal, to be averaged over many.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace gyrod::core {
+
+/// Periodogram of N samples, their straight line (least squares) taken away and a Hann taper laid over:
+///   P_k = |sum_n h_n (x_n - line_n) e^(-2 pi i k n / N)|^2,   h_n ~ sin^2(pi (n + 1/2) / N),   sum h_n^2 = 1,   k = 0..N/2.
+/// In unit^2 per sample: white noise of variance s^2 has E P_k = s^2 from k = 3 on; below that the line has taken its part.
+/// Sizes its workspace once; no call allocates after that. Not thread-safe.
+/// Source: Welch 1967.
+class Periodogram {
+ public:
+  /// @pre samples is a power of two, at least 8
+  explicit Periodogram(std::size_t samples);
+  ~Periodogram();
+  Periodogram(Periodogram&&) noexcept;
+  Periodogram& operator=(Periodogram&&) noexcept;
+
+  [[nodiscard]] std::size_t samples() const noexcept;
+  /// N/2 + 1.
+  [[nodiscard]] std::size_t bins() const noexcept;
+
+  /// Writes P_0 .. P_(N/2).
+  /// @return (1/N) sum of (x_n - line_n)^2, unit^2, without the taper
+  /// @pre x.size() == samples(), power.size() == bins(), x finite
+  double transform(std::span<const double> x, std::span<double> power) noexcept;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gyrod::core
