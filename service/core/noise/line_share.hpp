@@ -1,0 +1,16 @@
+/// How much of a spectrum is in narrow lines.
+#pragma once
+
+#include "core/noise/noise_fit.hpp"
+
+namespace gyrod::core {
+
+/// Part of the power above bias that stands out of its neighbourhood:
+///   sum over k >= 3 of max(0, S_k - 2.5 median of S_(k-12) .. S_(k+12)) / sum over k >= 3 of S_k,   0..1.
+/// Broad shapes, such as a sensor's low-pass filter, count as nothing; an engine's tone and its harmonics count in full. White noise
+/// has 0.06 from two segments, 0.02 from four.
+/// @return 0 where there is no power
+/// Allocates nothing; about 20 us.
+[[nodiscard]] double line_share(const NoiseSpectrum& power) noexcept;
+
+}  // namespace gyrod::core

@@ -1,0 +1,185 @@
+#include "core/noise/rest_detector.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/noise/line_share.hpp"
+
+namespace gyrod::core {
+namespace {
+
+constexpr double kBlockSeconds = 1.0;
+constexpr double kFewestInBlock = 100.0;
+/// Logarithms of block variances differ by sqrt(2 / n); real, coloured noise keeps eight to twelve of them within 6.3 of these.
+constexpr double kEvenDeviations = 7.5;
+/// A real sensor's level is not constant beyond this.
+constexpr double kMostEvenSamples = 400.0;
+constexpr double kSteady = 8.0;
+/// Accelerometers flicker more, and far more when they are moved.
+constexpr double kSteadyAccelerometer = 24.0;
+/// Still sensors have up to 0.28 (an ADIS16405's 20 Hz line), idling cars from 0.5 to 0.98.
+constexpr double kTone = 0.4;
+/// Fewer segments leave the spectrum of noise itself full of lines.
+constexpr double kFewestSegments = 2.0;
+constexpr std::size_t kHalfWindow = RestDetector::kBlocks / 2;
+constexpr std::size_t kHalfSegment = kNoiseSegment / 2;
+
+void add_up(RestDetector::Segments& sum, const RestDetector::Segments& more) noexcept {
+  for (std::size_t axis = 0; axis < sum.power.size(); ++axis) {
+    for (std::size_t k = 0; k < kNoiseBins; ++k) sum.power[axis][k] += more.power[axis][k];
+  }
+  sum.count += more.count;
+}
+
+}  // namespace
+
+RestDetector::RestDetector(double sample_rate_hz)
+    : block_samples_(
+          static_cast<std::size_t>(std::lround(std::max(kBlockSeconds * sample_rate_hz, kFewestInBlock)))),
+      even_ratio_(std::exp(kEvenDeviations *
+                           std::sqrt(2.0 / std::min(static_cast<double>(block_samples_), kMostEvenSamples)))),
+      periodogram_(kNoiseSegment) {
+  assert(sample_rate_hz > 0.0);
+  for (auto& samples : segment_) samples.resize(kNoiseSegment);
+}
+
+bool RestDetector::step(const Triple& rate, const Triple* accelerometer) noexcept {
+  if (in_block_ == 0) fresh_ = {};
+  inputs_ = accelerometer == nullptr ? 3 : kInputs;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    add(axis, rate[axis]);
+    if (accelerometer != nullptr) add(3 + axis, (*accelerometer)[axis]);
+    segment_[axis][in_segment_] = rate[axis];
+  }
+  if (++in_segment_ == kNoiseSegment) end_segment();
+  if (++in_block_ < block_samples_) return false;
+  end_block();
+  return true;
+}
+
+void RestDetector::add(std::size_t input, double value) noexcept {
+  Sums& sums = sums_[input];
+  if (in_block_ == 0) sums = {.first = value};
+  const double offset = value - sums.first;
+  sums.sum += offset;
+  sums.squares += offset * offset;
+}
+
+void RestDetector::end_segment() noexcept {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    periodogram_.transform(segment_[axis], scratch_);
+    for (std::size_t k = 0; k < kNoiseBins; ++k) fresh_.power[axis][k] += scratch_[k];
+    std::copy(segment_[axis].begin() + kHalfSegment, segment_[axis].end(), segment_[axis].begin());
+  }
+  fresh_.count += 1.0;
+  in_segment_ = kHalfSegment;
+}
+
+void RestDetector::end_block() noexcept {
+  const double count = static_cast<double>(block_samples_);
+  newest_ = (newest_ + 1) % kBlocks;
+  for (std::size_t input = 0; input < inputs_; ++input) {
+    const Sums& sums = sums_[input];
+    const double mean = sums.sum / count;
+    windows_[input][newest_] = {sums.first + mean, std::max(sums.squares / count - mean * mean, 0.0)};
+  }
+  in_block_ = 0;
+  if (!newest_is_even()) {
+    begin_run();
+    after_gap_ = false;
+  }
+  blocks_ = std::min(blocks_ + 1, kBlocks);
+  add_up(this_half_, fresh_);
+  verdict_ = judge();
+  if (++in_half_ == kHalfWindow) end_half();
+}
+
+/// With the newest block; the segment at work holds what was before.
+void RestDetector::begin_run() noexcept {
+  blocks_ = 0;
+  fresh_ = this_half_ = last_half_ = {};
+  in_segment_ = in_half_ = 0;
+  listened_ = false;
+}
+
+void RestDetector::end_half() noexcept {
+  last_half_ = this_half_;
+  this_half_ = {};
+  in_half_ = 0;
+}
+
+void RestDetector::interrupt() noexcept {
+  begin_run();
+  in_block_ = 0;
+  after_gap_ = true;
+  verdict_ = RestVerdict::kTooEarly;
+}
+
+RestVerdict RestDetector::judge() noexcept {
+  if (blocks_ < kBlocks) return after_gap_ ? RestVerdict::kTooEarly : RestVerdict::kUneven;
+  average();
+  if (std::ranges::all_of(variance_, [](double v) { return !(v > 0.0); })) return RestVerdict::kFrozen;
+  for (std::size_t input = 0; input < inputs_; ++input) {
+    const double most = input < 3 ? kSteady : kSteadyAccelerometer;
+    if (wandering(windows_[input]) > most) return RestVerdict::kWandering;
+  }
+  listen();
+  if (!listened_) return RestVerdict::kTooEarly;
+  return tone_ ? RestVerdict::kTone : RestVerdict::kRest;
+}
+
+void RestDetector::average() noexcept {
+  mean_ = variance_ = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const Block& block : windows_[axis]) {
+      mean_[axis] += block.mean / static_cast<double>(kBlocks);
+      variance_[axis] += block.variance / static_cast<double>(kBlocks);
+    }
+  }
+}
+
+/// With every block of the run, up to seven before.
+bool RestDetector::newest_is_even() const noexcept {
+  for (std::size_t input = 0; input < inputs_; ++input) {
+    const Window& window = windows_[input];
+    double least = window[newest_].variance;
+    double most = least;
+    for (std::size_t back = 1; back <= std::min(blocks_, kBlocks - 1); ++back) {
+      const double variance = window[(newest_ + kBlocks - back) % kBlocks].variance;
+      least = std::min(least, variance);
+      most = std::max(most, variance);
+    }
+    if (most > even_ratio_ * least) return false;
+  }
+  return true;
+}
+
+/// Spread of the block means in parts of what white noise of the blocks' level explains; 0 where nothing changes.
+double RestDetector::wandering(const Window& window) const noexcept {
+  const double count = static_cast<double>(kBlocks);
+  double centre = 0.0;
+  double level = 0.0;
+  for (const Block& block : window) {
+    centre += block.mean / count;
+    level += block.variance / count;
+  }
+  double spread = 0.0;
+  for (const Block& block : window) spread += (block.mean - centre) * (block.mean - centre) / (count - 1.0);
+  if (!(spread > 0.0)) return 0.0;
+  return spread * static_cast<double>(block_samples_) / level;
+}
+
+/// Too few segments at the moment leave the answer that there was.
+void RestDetector::listen() noexcept {
+  if (this_half_.count + last_half_.count < kFewestSegments) return;
+  listened_ = true;
+  tone_ = false;
+  for (std::size_t axis = 0; axis < 3 && !tone_; ++axis) {
+    for (std::size_t k = 0; k < kNoiseBins; ++k)
+      scratch_[k] = this_half_.power[axis][k] + last_half_.power[axis][k];
+    tone_ = line_share(scratch_) > kTone;
+  }
+}
+
+}  // namespace gyrod::core

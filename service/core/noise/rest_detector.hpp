@@ -1,0 +1,117 @@
+/// Tells from the samples alone whether the sensor is at rest.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/noise/noise_fit.hpp"
+#include "core/signal/periodogram.hpp"
+
+namespace gyrod::core {
+
+/// Rates, or specific forces, about x, y, z.
+using Triple = std::array<double, 3>;
+
+/// What the last eight blocks say.
+enum class RestVerdict : std::uint8_t {
+  kTooEarly,  ///< not eight blocks and two segments yet since the beginning or a gap
+  kFrozen,    ///< no axis changes at all: not a sensor at rest
+  kUneven,  ///< within the last eight blocks the level of some axis changed more than a constant noise would
+  kWandering,  ///< the mean of some axis varies more than its noise explains: slow motion
+  kTone,       ///< most of some axis is in narrow lines: an engine, a fan
+  kRest        ///< none of these
+};
+
+/// Judges blocks of samples, eight at a time. A block is one second, or 100 samples where those take longer. At rest is who has, on each
+/// axis that is alive, n samples a block, block variances v_i and block means m_i:
+///   even:    max v_i / min v_i <= exp(7.5 sqrt(2 / min(n, 400)));
+///   steady:  var(m_i) n / mean(v_i) <= 8   (white noise: 1; chi-squared of 7 degrees, and twice that for colour);
+///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4.
+/// A block that is not even with those before begins a new run, and eight blocks of a run are judged. A sensor whose own low-pass lies
+/// below about a third of half the sample rate has too few independent samples for this, and is rarely found at rest.
+/// The accelerometer, where there is one, must be even and steady (24, for it flickers), too. Neither level nor bias is judged: that takes a memory
+/// (standstill_learner.hpp). The verdict is a function of samples and sample rate alone: no clock.
+/// Constant memory of about 50 kB; nothing allocates after construction. One thread at a time.
+class RestDetector {
+ public:
+  static constexpr std::size_t kBlocks = 8;
+
+  /// Spectra of the segments that ended within the last block: their sum.
+  struct Segments {
+    std::array<NoiseSpectrum, 3> power{};
+    double count = 0.0;
+  };
+
+  /// @pre sample_rate_hz > 0
+  explicit RestDetector(double sample_rate_hz);
+
+  /// One sample, finite. @return whether it ended a block, so that verdict(), variance(), mean() and fresh() are new
+  /// @param accelerometer in any unit, or nullptr: always or never
+  bool step(const Triple& rate, const Triple* accelerometer = nullptr) noexcept;
+
+  /// A gap: what follows does not join what was.
+  void interrupt() noexcept;
+
+  [[nodiscard]] RestVerdict verdict() const noexcept { return verdict_; }
+  /// Mean of the block variances, the unit of the rate squared; 0 for an axis that does not change.
+  [[nodiscard]] const Triple& variance() const noexcept { return variance_; }
+  /// Mean rate over the eight blocks.
+  [[nodiscard]] const Triple& mean() const noexcept { return mean_; }
+  /// Half overlapping segments of kNoiseSegment samples; all lie within the eight blocks.
+  [[nodiscard]] const Segments& fresh() const noexcept { return fresh_; }
+  [[nodiscard]] std::size_t block_samples() const noexcept { return block_samples_; }
+
+ private:
+  static constexpr std::size_t kInputs = 6;  ///< three rates, three specific forces
+
+  /// One block of one input.
+  struct Block {
+    double mean = 0.0;
+    double variance = 0.0;
+  };
+  /// Sums over the block at work, counted from its first sample.
+  struct Sums {
+    double first = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;
+  };
+  using Window = std::array<Block, kBlocks>;
+
+  void add(std::size_t input, double value) noexcept;
+  void end_block() noexcept;
+  void end_segment() noexcept;
+  void begin_run() noexcept;
+  void end_half() noexcept;
+  void average() noexcept;
+  [[nodiscard]] RestVerdict judge() noexcept;
+  [[nodiscard]] bool newest_is_even() const noexcept;
+  [[nodiscard]] double wandering(const Window& window) const noexcept;
+  void listen() noexcept;
+
+  std::size_t block_samples_;
+  double even_ratio_;
+  std::size_t inputs_ = 3;
+  std::size_t in_block_ = 0;
+  std::size_t blocks_ = 0;  ///< of this run, kBlocks at most
+  std::size_t newest_ = 0;
+  bool after_gap_ = true;
+  std::array<Sums, kInputs> sums_{};
+  std::array<Window, kInputs> windows_{};
+  Periodogram periodogram_;
+  std::array<std::vector<double>, 3> segment_;  ///< the samples of the segment at work
+  std::size_t in_segment_ = 0;
+  Segments fresh_;
+  Segments this_half_;  ///< of the run's blocks 1 to 4, 5 to 8 and so on: those at work
+  Segments last_half_;
+  std::size_t in_half_ = 0;  ///< blocks
+  bool listened_ = false;
+  bool tone_ = false;
+  NoiseSpectrum scratch_{};
+  RestVerdict verdict_ = RestVerdict::kTooEarly;
+  Triple variance_{};
+  Triple mean_{};
+};
+
+}  // namespace gyrod::core

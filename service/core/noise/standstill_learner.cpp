@@ -1,0 +1,180 @@
+#include "core/noise/standstill_learner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gyrod::core {
+namespace {
+
+/// Largest ratio of variances of one noise: eight blocks of 100 samples vary by 6 %, a sensor's level by 5 % in hours.
+constexpr double kSameLevel = 1.5;
+constexpr double kOutvotedLevelSeconds = 1800.0;
+/// Largest distance of means of one bias, rad/s: 1 deg/s.
+constexpr double kSameBias = std::numbers::pi / 180.0;
+constexpr double kMemorySeconds = 600.0;
+constexpr double kFewestSegments = 5.0;
+constexpr double kFewestSeconds = 10.0;
+/// Of what is learned; so much more and the models are made anew.
+constexpr double kRefit = 0.1;
+constexpr double kSameRate = 0.02;
+
+bool close(const Triple& a, const Triple& b) noexcept {
+  for (std::size_t axis = 0; axis < a.size(); ++axis) {
+    if (std::abs(a[axis] - b[axis]) > kSameBias) return false;
+  }
+  return true;
+}
+
+/// Moves a mean of `weight` towards a value of weight `added`.
+void blend(Triple& mean, double weight, const Triple& value, double added) noexcept {
+  for (std::size_t axis = 0; axis < mean.size(); ++axis) {
+    mean[axis] += (value[axis] - mean[axis]) * added / (weight + added);
+  }
+}
+
+bool is_dead(const NoiseModel& model) noexcept { return model == NoiseModel{}; }
+
+bool is_good(const StandstillState& state) noexcept {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const auto good = [](const NoiseModel& model) { return is_usable(model) || is_dead(model); };
+  return positive(state.sample_rate_hz) && positive(state.rest_seconds) && positive(state.segments) &&
+         positive(state.bias_seconds) && std::ranges::all_of(state.bias, finite) &&
+         std::ranges::all_of(state.models, good) && !std::ranges::all_of(state.models, is_dead);
+}
+
+}  // namespace
+
+StandstillLearner::StandstillLearner(double sample_rate_hz) : detector_(sample_rate_hz) {
+  block_seconds_ = static_cast<double>(detector_.block_samples()) / sample_rate_hz;
+  segment_seconds_ = static_cast<double>(kNoiseSegment / 2) / sample_rate_hz;
+  least_segments_ = std::max(kFewestSegments, kFewestSeconds / segment_seconds_);
+  most_segments_ = std::max(2.0 * kFewestSegments, kMemorySeconds / segment_seconds_);
+  state_.sample_rate_hz = sample_rate_hz;
+}
+
+void StandstillLearner::step(const Triple& rate, const Triple* accelerometer) noexcept {
+  if (detector_.step(rate, accelerometer)) end_block();
+}
+
+void StandstillLearner::interrupt() noexcept {
+  detector_.interrupt();
+  at_rest_ = false;
+}
+
+void StandstillLearner::end_block() noexcept {
+  at_rest_ = detector_.verdict() == RestVerdict::kRest && believes();
+  if (at_rest_) learn();
+}
+
+bool StandstillLearner::believes() noexcept { return believes_level() && believes_bias(); }
+
+bool StandstillLearner::believes_level() noexcept {
+  const Triple& now = detector_.variance();
+  bool louder = false;
+  bool quieter = false;
+  for (std::size_t axis = 0; axis < now.size(); ++axis) {
+    if (!(level_[axis] > 0.0)) continue;
+    louder = louder || now[axis] > kSameLevel * level_[axis];
+    quieter = quieter || now[axis] * kSameLevel < level_[axis];
+  }
+  louder_seconds_ = louder ? louder_seconds_ + block_seconds_ : 0.0;
+  if (quieter || louder_seconds_ > kOutvotedLevelSeconds) {
+    forget();
+    return true;
+  }
+  return !louder;
+}
+
+bool StandstillLearner::believes_bias() noexcept {
+  if (state_.bias_seconds == 0.0) return true;
+  if (close(detector_.mean(), state_.bias)) {
+    other_seconds_ = std::max(other_seconds_ - block_seconds_, 0.0);
+    return true;
+  }
+  vote_for_other_bias();
+  if (other_seconds_ <= state_.bias_seconds) return false;
+  state_.bias = other_bias_;
+  state_.bias_seconds = other_seconds_;
+  other_seconds_ = 0.0;
+  return true;
+}
+
+void StandstillLearner::vote_for_other_bias() noexcept {
+  if (other_seconds_ > 0.0 && !close(detector_.mean(), other_bias_)) {
+    other_seconds_ = std::max(other_seconds_ - block_seconds_, 0.0);
+    return;
+  }
+  blend(other_bias_, other_seconds_, detector_.mean(), block_seconds_);
+  other_seconds_ += block_seconds_;
+}
+
+void StandstillLearner::learn() noexcept {
+  learn_bias();
+  const RestDetector::Segments& fresh = detector_.fresh();
+  if (fresh.count == 0.0) return;
+  const double kept = std::min(state_.segments, most_segments_ - fresh.count);
+  const double all = kept + fresh.count;
+  for (std::size_t axis = 0; axis < power_.size(); ++axis) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kNoiseBins; ++k) {
+      power_[axis][k] = (kept * power_[axis][k] + fresh.power[axis][k]) / all;
+      sum += power_[axis][k];
+    }
+    level_[axis] = sum / static_cast<double>(kNoiseBins);
+  }
+  state_.segments = all;
+  state_.rest_seconds += fresh.count * segment_seconds_;
+  since_fit_ += fresh.count;
+  if (all >= least_segments_ && since_fit_ >= kRefit * all) fit();
+}
+
+void StandstillLearner::learn_bias() noexcept {
+  const double weight = std::min(state_.bias_seconds, kMemorySeconds - block_seconds_);
+  blend(state_.bias, weight, detector_.mean(), block_seconds_);
+  state_.bias_seconds = weight + block_seconds_;
+}
+
+void StandstillLearner::fit() noexcept {
+  for (std::size_t axis = 0; axis < power_.size(); ++axis) {
+    state_.models[axis] = fit_noise(power_[axis]).value_or(NoiseModel{});
+  }
+  since_fit_ = 0.0;
+  ++revision_;
+}
+
+/// The noise; the bias has its own vote.
+void StandstillLearner::forget() noexcept {
+  const bool had_models = !std::ranges::all_of(state_.models, is_dead);
+  state_.models = {};
+  state_.segments = 0.0;
+  state_.rest_seconds = 0.0;
+  power_ = {};
+  level_ = {};
+  since_fit_ = 0.0;
+  louder_seconds_ = 0.0;
+  if (had_models) ++revision_;
+}
+
+bool StandstillLearner::restore(const StandstillState& state) noexcept {
+  const double rate = state_.sample_rate_hz;
+  if (!is_good(state) || std::abs(state.sample_rate_hz - rate) > kSameRate * rate) return false;
+  state_ = state;
+  state_.sample_rate_hz = rate;
+  state_.segments = std::min(state.segments, most_segments_);
+  state_.bias_seconds = std::min(state.bias_seconds, kMemorySeconds);
+  for (std::size_t axis = 0; axis < power_.size(); ++axis) {
+    const bool dead = is_dead(state_.models[axis]);
+    for (std::size_t k = 0; k < kNoiseBins; ++k) {
+      const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kNoiseSegment);
+      power_[axis][k] = dead ? 0.0 : noise_spectrum(state_.models[axis], w);
+    }
+    level_[axis] = dead ? 0.0 : noise_variance(state_.models[axis]);
+  }
+  since_fit_ = louder_seconds_ = other_seconds_ = 0.0;
+  ++revision_;
+  return true;
+}
+
+}  // namespace gyrod::core
