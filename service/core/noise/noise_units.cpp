@@ -1,0 +1,49 @@
+#include "core/noise/noise_units.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace gyrod::core {
+namespace {
+
+constexpr double kSameRate = 0.02;
+/// Frequencies that a spectrum with eight poles is averaged over.
+constexpr int kFrequencies = 1024;
+
+}  // namespace
+
+double noise_density(const NoiseModel& model, double sample_rate_hz) noexcept {
+  return std::sqrt(2.0 * noise_variance(model) / sample_rate_hz);
+}
+
+double angle_random_walk(const NoiseModel& model, double sample_rate_hz) noexcept {
+  return std::sqrt(noise_spectrum(model, 0.0) / sample_rate_hz);
+}
+
+NoiseModel from_noise_density(double density, double sample_rate_hz) noexcept {
+  return white_noise(density * density * 0.5 * sample_rate_hz);
+}
+
+NoiseModel from_angle_random_walk(double random_walk, double sample_rate_hz) noexcept {
+  return white_noise(random_walk * random_walk * sample_rate_hz);
+}
+
+double lag_one_correlation(const NoiseModel& model) noexcept {
+  if (!is_usable(model)) return 0.0;
+  double all = 0.0;
+  double lagged = 0.0;
+  for (int k = 0; k < kFrequencies; ++k) {
+    const double w = std::numbers::pi * (static_cast<double>(k) + 0.5) / kFrequencies;
+    const double power = noise_spectrum(model, w);
+    all += power;
+    lagged += power * std::cos(w);
+  }
+  return lagged / all;
+}
+
+NoiseModel at_rate(const NoiseModel& model, double from_hz, double to_hz) noexcept {
+  if (std::abs(to_hz - from_hz) <= kSameRate * from_hz) return model;
+  return white_noise(noise_variance(model) * to_hz / from_hz);
+}
+
+}  // namespace gyrod::core

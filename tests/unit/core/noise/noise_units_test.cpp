@@ -1,0 +1,50 @@
+#include "core/noise/noise_units.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace gyrod::core {
+namespace {
+
+/// AR(1) of pole 0.5 driven by variance 3, and white noise of 1: variance 5, 13 at frequency 0, covariance 0.5 * 4 at lag 1.
+NoiseModel coloured() {
+  NoiseModel model = white_noise(1.0);
+  model.colour_order = 1;
+  model.colour[0] = 0.5;
+  model.colour_variance = 3.0;
+  return model;
+}
+
+TEST(NoiseUnits, AreThoseOfADataSheetThatGivesBoth) {
+  // ADIS16405, +-300 deg/s: 0.05 deg/s/sqrt(Hz) rms and 2.0 deg/sqrt(h). At 100 Hz: 0.05 sqrt(50) = 0.354 and 2 / 60 sqrt(100) = 0.333;
+  // still recordings of it have 0.35.
+  EXPECT_NEAR(std::sqrt(noise_variance(from_noise_density(0.05, 100.0))), 0.35355, 1e-5);
+  EXPECT_NEAR(std::sqrt(noise_variance(from_angle_random_walk(2.0 / 60.0, 100.0))), 0.33333, 1e-5);
+}
+
+TEST(NoiseUnits, GoBothWays) {
+  EXPECT_NEAR(noise_density(from_noise_density(0.05, 100.0), 100.0), 0.05, 1e-15);
+  EXPECT_NEAR(angle_random_walk(from_angle_random_walk(0.03, 200.0), 200.0), 0.03, 1e-15);
+}
+
+TEST(NoiseUnits, TakeTheRandomWalkFromTheSlowEnd) {
+  EXPECT_NEAR(angle_random_walk(coloured(), 100.0), std::sqrt(0.13), 1e-12);
+  EXPECT_NEAR(noise_density(coloured(), 100.0), std::sqrt(0.10), 1e-12);
+}
+
+TEST(NoiseUnits, GiveTheCorrelationOfNeighbours) {
+  EXPECT_DOUBLE_EQ(lag_one_correlation(NoiseModel{}), 0.0);
+  EXPECT_NEAR(lag_one_correlation(white_noise(2.0)), 0.0, 1e-12);
+  EXPECT_NEAR(lag_one_correlation(coloured()), 2.0 / 5.0, 1e-9);
+}
+
+TEST(NoiseUnits, KeepTheDensityAtAnotherRate) {
+  EXPECT_EQ(at_rate(coloured(), 100.0, 101.0), coloured());
+  const NoiseModel twice = at_rate(coloured(), 100.0, 200.0);
+  EXPECT_EQ(twice, white_noise(10.0));
+  EXPECT_NEAR(noise_density(twice, 200.0), noise_density(coloured(), 100.0), 1e-15);
+}
+
+}  // namespace
+}  // namespace gyrod::core
