@@ -1,10 +1,7 @@
 #include "settings/load.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <iterator>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -13,6 +10,7 @@
 #include "settings/document.hpp"
 #include "settings/enum_names.hpp"
 #include "settings/schema_check.hpp"
+#include "settings/text_file.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -21,7 +19,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 /// Far above any configuration; a wrong file is refused before it is read.
-constexpr std::uintmax_t kMaxFileBytes = 1U << 20U;
+constexpr std::size_t kMaxFileMebibytes = 1;
 
 /// Takes the given value of one key, of which the schema has approved.
 template <class T>
@@ -38,31 +36,12 @@ SettingsIssue file_issue(std::string message) {
   return {.key = "", .value = "", .expected = "a readable JSON file", .message = std::move(message)};
 }
 
-/// @return why the file cannot be a configuration, empty if it can
-std::string refusal(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) return "no such file";
-  if (error) return "cannot be read: " + error.message();
-  if (fs::is_directory(status)) return "is a directory, not a file";
-  if (!fs::is_regular_file(status)) return "is not a regular file";
-  if (fs::file_size(file, error) > kMaxFileBytes) return "is larger than 1 MiB";
-  return {};
-}
-
 Outcome read_file(const fs::path& file) {
+  const TextFile read = read_text_file(file, kMaxFileMebibytes);
+  if (read.trouble.empty()) return read_settings(read.text, file.parent_path());
   Outcome outcome;
-  if (const std::string reason = refusal(file); !reason.empty()) {
-    outcome.issues.push_back(file_issue(reason));
-    return outcome;
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    outcome.issues.push_back(file_issue("cannot be read: " + std::generic_category().message(errno)));
-    return outcome;
-  }
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  return read_settings(text, file.parent_path());
+  outcome.issues.push_back(file_issue(read.trouble));
+  return outcome;
 }
 
 /// Into the order of the text; what the text does not give (a default that no longer fits) comes last.
