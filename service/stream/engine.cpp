@@ -21,12 +21,18 @@ void require(const char* name, Number value, Number least, Number most) {
                               std::to_string(least) + " to " + std::to_string(most));
 }
 
-const EngineOptions& validated(const EngineOptions& options) {
+std::size_t longest_lag(const EngineOptions& options, const MethodFactory& method) {
+  const std::size_t quarter = options.window_samples / 4;
+  return std::holds_alternative<ModelMethodFactory>(method) ? std::min(quarter, kMaxModelLagSamples)
+                                                            : quarter;
+}
+
+const EngineOptions& validated(const EngineOptions& options, const MethodFactory& method) {
   const std::size_t window = options.window_samples;
   require<std::size_t>("window_samples", window, 64, 65536);
   require<std::size_t>("hop_samples", options.hop_samples, 1, window / 2);
   require<std::size_t>("max_hop_samples", options.max_hop_samples, options.hop_samples, window / 2);
-  require<std::size_t>("lag_samples", options.lag_samples, 0, window / 4);
+  require<std::size_t>("lag_samples", options.lag_samples, 0, longest_lag(options, method));
   require<std::size_t>("max_queued_windows", options.max_queued_windows, 1, 64);
   require<std::size_t>("workers", options.workers, 0, 1024);
   require<std::size_t>("max_channels", options.max_channels, 1, 100'000);
@@ -40,7 +46,7 @@ const EngineOptions& validated(const EngineOptions& options) {
 }  // namespace
 
 Engine::Impl::Impl(EngineOptions options, MethodFactory method, Sink& sink, Clock clock)
-    : options_(validated(options)),
+    : options_(validated(options, method)),
       method_(std::move(method)),
       sink_(sink),
       clock_(clock ? std::move(clock) : Clock{steady_seconds}),
@@ -59,7 +65,7 @@ Engine::Impl::Impl(EngineOptions options, MethodFactory method, Sink& sink, Cloc
 void Engine::Impl::submit(Channel& channel, WindowJob job) {
   job.sample_rate_hz = channel.gate.rate_hz();
   job.noise = channel.noise;
-  job.at_rest = channel.learner && channel.learner->at_rest();
+  if (channel.learner) job.at_rest = channel.learner->at_rest();
   if (channel.fast_loop) job.model_fit = channel.fast_loop->model_fit();
   job.submitted_s = clock_();  // before the wait, which is part of the latency
   wait_while(channel, [&channel] { return !channel.can_submit(); });

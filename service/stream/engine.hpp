@@ -45,7 +45,7 @@ struct EngineOptions {
   std::size_t hop_samples = 32;
   /// Widest hop under overload, samples; hop_samples..window_samples/2.
   std::size_t max_hop_samples = 256;
-  /// Look-ahead of a released sample, samples. 0..window_samples/4.
+  /// Look-ahead of a released sample, samples. 0..window_samples/4; of a model method at most kMaxModelLagSamples.
   std::size_t lag_samples = 16;
   /// Windows of one channel that may wait for a worker. 1..64.
   std::size_t max_queued_windows = 4;

@@ -28,7 +28,7 @@ struct WindowJob {
   double submitted_s = 0.0;       ///< engine clock
   // As known when the window ended, so that they depend on sample numbers alone.
   ChannelNoise noise;
-  bool at_rest = false;
+  std::optional<bool> at_rest;                           ///< none where nobody looks
   std::optional<std::array<ModelFit, kAxes>> model_fit;  ///< model methods only
 };
 

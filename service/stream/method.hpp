@@ -54,6 +54,9 @@ class Model {
   virtual ~Model() = default;
 };
 
+/// Longest lag of a model method, samples: its filters carry as many past states along.
+inline constexpr std::size_t kMaxModelLagSamples = 32;
+
 /// An estimate of the true rate and of its error's variance.
 struct Estimate {
   double rate = 0.0;      ///< rad/s

@@ -31,8 +31,8 @@ struct NoiseReport {
   std::array<core::WindowReport, kAxes> axis{};
   /// Of the models that were in use when the window ended, x, y, z; none with a window method.
   std::optional<std::array<ModelFit, kAxes>> model_fit;
-  /// The sensor was at rest when the window ended; false where nobody looks.
-  bool at_rest = false;
+  /// Whether the sensor was at rest when the window ended; none where nobody looks.
+  std::optional<bool> at_rest;
 };
 
 }  // namespace gyrod::stream

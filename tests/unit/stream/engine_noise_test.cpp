@@ -99,9 +99,9 @@ TEST(EngineNoise, ReportsRestAsOfTheWindowsEnd) {
   engine.stop(std::chrono::seconds{60});
   const auto reports = sink.reports("imu");
   ASSERT_GE(reports.size(), 3U);
-  EXPECT_FALSE(reports[0].at_rest) << "31 measured samples";
-  EXPECT_FALSE(reports[1].at_rest) << "63";
-  EXPECT_TRUE(reports[2].at_rest) << "94";
+  EXPECT_EQ(reports[0].at_rest, false) << "31 measured samples";
+  EXPECT_EQ(reports[1].at_rest, false) << "63";
+  EXPECT_EQ(reports[2].at_rest, true) << "94";
 }
 
 TEST(EngineNoise, LearnedGivesTheSameBitsForAnyWorkersAndAnyBatching) {

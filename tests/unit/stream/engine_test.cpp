@@ -21,6 +21,20 @@ TEST(Engine, NamesAnOptionOutsideItsRange) {
   }
 }
 
+TEST(Engine, NamesALagThatIsTooLongForAModelMethod) {
+  RecordingSink sink;
+  EngineOptions options = small_options();
+  options.window_samples = 256;
+  options.lag_samples = 33;
+  EXPECT_NO_THROW(Engine(options, window_marker(), sink));
+  try {
+    Engine engine(options, testing::last_sample_method(), sink);
+    FAIL() << "accepted a lag of 33";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "lag_samples is 33, expected 0 to 32");
+  }
+}
+
 TEST(Engine, ReleasesEverySampleOnceInOrderWithItsOwnStamp) {
   RecordingSink sink;
   Engine engine(small_options(), window_marker(), sink);
