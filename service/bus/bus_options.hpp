@@ -26,6 +26,8 @@ struct TopicNames {
   std::string denoised = "gyro/denoised";              ///< out: DenoisedSample
   std::string denoised_batch = "gyro/denoised_batch";  ///< out: DenoisedBatch
   std::string noise = "gyro/noise";                    ///< out: NoiseReport
+  std::string realtime = "gyro/realtime";              ///< out, see BusOptions::realtime: DenoisedSample
+  std::string realtime_batch = "gyro/realtime_batch";  ///< out, see BusOptions::realtime: DenoisedBatch
 };
 
 /// Effect, unit, range and consequence of every option; the defaults lose nothing and bound everything.
@@ -70,6 +72,9 @@ struct BusOptions {
   /// Output: messages kept per sensor and topic for readers that are late. 1..65536. A reliable reader that
   /// lags by more loses the oldest; gyrod itself never waits for a reader.
   std::size_t output_depth = 1024;
+
+  /// Output: whether the topics of estimates without look-ahead are offered. Only model methods make such estimates.
+  bool realtime = false;
 
   /// Samples of one batch message. 1..65536. Output: a longer run is split. Input: a longer batch is refused
   /// and counted.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "bus/topic_writer.hpp"
@@ -25,34 +28,19 @@ class Publisher::Impl {
   Impl(const Domain& domain, const BusOptions& options)
       : domain_(domain),
         max_batch_samples_(options.max_batch_samples),
-        singles_(domain.participant(), options.topics.denoised, output_writer_qos(options)),
-        batches_(domain.participant(), options.topics.denoised_batch, output_writer_qos(options)),
-        reports_(domain.participant(), options.topics.noise, report_writer_qos(options)) {}
-
-  void publish_singles(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
-    if (!singles_.has_readers()) return;
-    gyrod_DenoisedSample message;
-    set_sensor(message, sensor);
-    for (const stream::DenoisedSample& sample : samples) {
-      to_wire(sample, message);
-      count(singles_.write(message));
-    }
-    singles_.flush();
+        denoised_(domain, options.topics.denoised, options.topics.denoised_batch, options),
+        reports_(domain.participant(), options.topics.noise, report_writer_qos(options)) {
+    if (options.realtime)
+      realtime_.emplace(domain, options.topics.realtime, options.topics.realtime_batch, options);
   }
 
-  void publish_batches(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
-    if (!batches_.has_readers()) return;
-    gyrod_DenoisedBatch message;
-    set_sensor(message, sensor);
-    while (!samples.empty()) {
-      const auto part = samples.first(std::min(samples.size(), max_batch_samples_));
-      const auto elements = elements_of(part);
-      const auto size = static_cast<std::uint32_t>(elements.size());
-      message.samples = {size, size, elements.data(), false};
-      count(batches_.write(message));
-      samples = samples.subspan(part.size());
-    }
-    batches_.flush();
+  void publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
+    publish_to(denoised_, sensor, samples);
+  }
+
+  void publish_realtime(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
+    assert(realtime_.has_value());
+    publish_to(*realtime_, sensor, samples);
   }
 
   void publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
@@ -65,17 +53,21 @@ class Publisher::Impl {
   }
 
   void unregister_sensor(std::string_view sensor) noexcept {
-    count(singles_.end(sensor));
-    count(batches_.end(sensor));
+    end(denoised_, sensor);
+    if (realtime_) end(*realtime_, sensor);
     count(reports_.end(sensor));
   }
 
   [[nodiscard]] bool wait_for_acknowledgements(std::chrono::milliseconds timeout) const noexcept {
     const dds_time_t deadline = dds_time() + DDS_MSECS(timeout.count());
-    const auto confirmed = [deadline](dds_entity_t writer) {
-      return dds_wait_for_acks(writer, std::max<dds_duration_t>(0, deadline - dds_time())) == DDS_RETCODE_OK;
+    const auto confirmed = [deadline](const auto& writer) {
+      return dds_wait_for_acks(writer.get(), std::max<dds_duration_t>(0, deadline - dds_time())) ==
+             DDS_RETCODE_OK;
     };
-    return confirmed(singles_.get()) && confirmed(batches_.get()) && confirmed(reports_.get());
+    const auto both_confirmed = [&confirmed](const Topics& topics) {
+      return confirmed(topics.singles) && confirmed(topics.batches);
+    };
+    return both_confirmed(denoised_) && (!realtime_ || both_confirmed(*realtime_)) && confirmed(reports_);
   }
 
   [[nodiscard]] std::uint64_t write_errors() const noexcept {
@@ -83,14 +75,62 @@ class Publisher::Impl {
   }
 
  private:
+  /// The same samples one by one and in batches.
+  struct Topics {
+    Topics(const Domain& domain, const std::string& single, const std::string& batch,
+           const BusOptions& options)
+        : singles(domain.participant(), single, output_writer_qos(options)),
+          batches(domain.participant(), batch, output_writer_qos(options)) {}
+
+    TopicWriter<gyrod_DenoisedSample> singles;
+    TopicWriter<gyrod_DenoisedBatch> batches;
+  };
+
+  void publish_to(Topics& topics, std::string_view sensor,
+                  std::span<const stream::DenoisedSample> samples) noexcept {
+    if (topics.singles.has_readers()) publish_singles(topics.singles, sensor, samples);
+    if (topics.batches.has_readers()) publish_batches(topics.batches, sensor, samples);
+  }
+
+  void publish_singles(TopicWriter<gyrod_DenoisedSample>& writer, std::string_view sensor,
+                       std::span<const stream::DenoisedSample> samples) noexcept {
+    gyrod_DenoisedSample message;
+    set_sensor(message, sensor);
+    for (const stream::DenoisedSample& sample : samples) {
+      to_wire(sample, message);
+      count(writer.write(message));
+    }
+    writer.flush();
+  }
+
+  void publish_batches(TopicWriter<gyrod_DenoisedBatch>& writer, std::string_view sensor,
+                       std::span<const stream::DenoisedSample> samples) noexcept {
+    gyrod_DenoisedBatch message;
+    set_sensor(message, sensor);
+    while (!samples.empty()) {
+      const auto part = samples.first(std::min(samples.size(), max_batch_samples_));
+      const auto elements = elements_of(part);
+      const auto size = static_cast<std::uint32_t>(elements.size());
+      message.samples = {size, size, elements.data(), false};
+      count(writer.write(message));
+      samples = samples.subspan(part.size());
+    }
+    writer.flush();
+  }
+
+  void end(Topics& topics, std::string_view sensor) noexcept {
+    count(topics.singles.end(sensor));
+    count(topics.batches.end(sensor));
+  }
+
   void count(dds_return_t written) noexcept {
     if (written < 0) write_errors_.fetch_add(1, std::memory_order_relaxed);
   }
 
   Domain domain_;
   std::size_t max_batch_samples_;
-  TopicWriter<gyrod_DenoisedSample> singles_;
-  TopicWriter<gyrod_DenoisedBatch> batches_;
+  Topics denoised_;
+  std::optional<Topics> realtime_;
   TopicWriter<gyrod_NoiseReport> reports_;
   std::atomic<std::uint64_t> write_errors_{0};
 };
@@ -102,8 +142,12 @@ Publisher::Publisher(Publisher&&) noexcept = default;
 Publisher& Publisher::operator=(Publisher&&) noexcept = default;
 
 void Publisher::publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
-  impl_->publish_singles(sensor, samples);
-  impl_->publish_batches(sensor, samples);
+  impl_->publish(sensor, samples);
+}
+
+void Publisher::publish_realtime(std::string_view sensor,
+                                 std::span<const stream::DenoisedSample> samples) noexcept {
+  impl_->publish_realtime(sensor, samples);
 }
 
 void Publisher::publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {

@@ -31,6 +31,10 @@ class Publisher {
   /// @pre fits_wire(sensor)
   void publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept;
 
+  /// Writes estimates without look-ahead to topics of their own, in the same way: a batch message holds what one call brings.
+  /// @pre fits_wire(sensor), BusOptions::realtime
+  void publish_realtime(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept;
+
   /// Writes the report, also without a reader: a later one gets the newest. @pre fits_wire(sensor)
   void publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept;
 

@@ -18,9 +18,9 @@ std::optional<TopicFound> configured_topic(const BusOptions& options, const std:
   const TopicNames& names = options.topics;
   if (topic == names.raw) return TopicFound{type_name_of<gyrod_GyroSample>(), options.input_reliability};
   if (topic == names.raw_batch) return TopicFound{type_name_of<gyrod_GyroBatch>(), options.input_reliability};
-  if (topic == names.denoised)
+  if (topic == names.denoised || topic == names.realtime)
     return TopicFound{type_name_of<gyrod_DenoisedSample>(), options.output_reliability};
-  if (topic == names.denoised_batch)
+  if (topic == names.denoised_batch || topic == names.realtime_batch)
     return TopicFound{type_name_of<gyrod_DenoisedBatch>(), options.output_reliability};
   return std::nullopt;
 }

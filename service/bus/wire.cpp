@@ -31,6 +31,17 @@ void to_wire(const core::WindowReport& report, std::span<gyrod_ImfReport> imfs,
   wire.imfs = {imf_count, imf_count, imfs.data(), false};
 }
 
+/// The part of a report that model methods fill.
+void to_wire(const core::WindowReport& window, const stream::ModelFit& fit, double sample_rate_hz,
+             gyrod_AxisReport& wire) noexcept {
+  wire.normalised_innovation = fit.normalised_innovation;
+  wire.model_misfit = fit.misfit;
+  wire.model_fallbacks = fit.fallbacks;
+  wire.model_modes = static_cast<std::uint32_t>(window.modes);
+  wire.tone_frequency_hz = window.tone_frequency_cycles * sample_rate_hz;
+  wire.tone_amplitude_radps = window.tone_amplitude;
+}
+
 }  // namespace
 
 void to_wire(const stream::NoiseReport& report, ImfReports& imfs, gyrod_NoiseReport& wire) noexcept {
@@ -43,8 +54,13 @@ void to_wire(const stream::NoiseReport& report, ImfReports& imfs, gyrod_NoiseRep
   wire.noise_source = static_cast<std::uint32_t>(report.noise_source);
   wire.flags = report.flags;
   wire.window_time_s = report.window_time_s;
-  for (std::size_t axis = 0; axis < stream::kAxes; ++axis)
+  wire.at_rest = report.at_rest.value_or(false);
+  constexpr stream::ModelFit kNoModel{.normalised_innovation = 0.0};
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
     to_wire(report.axis[axis], imfs[axis], wire.axis[axis]);
+    to_wire(report.axis[axis], report.model_fit ? (*report.model_fit)[axis] : kNoModel, report.sample_rate_hz,
+            wire.axis[axis]);
+  }
 }
 
 }  // namespace gyrod::bus

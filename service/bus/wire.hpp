@@ -20,6 +20,7 @@ static_assert(gyrod_FLAG_WARMING_UP == static_cast<int>(stream::SampleFlag::kWar
 static_assert(gyrod_FLAG_TAIL == static_cast<int>(stream::SampleFlag::kTail));
 static_assert(gyrod_FLAG_PASS_THROUGH == static_cast<int>(stream::SampleFlag::kPassThrough));
 static_assert(gyrod_FLAG_HOP_WIDENED == static_cast<int>(stream::SampleFlag::kHopWidened));
+static_assert(gyrod_FLAG_MODEL_MISFIT == static_cast<int>(stream::SampleFlag::kModelMisfit));
 static_assert(gyrod_NOISE_SOURCE_NONE == static_cast<int>(stream::NoiseSource::kNone));
 static_assert(gyrod_NOISE_SOURCE_IMF1 == static_cast<int>(stream::NoiseSource::kImf1));
 static_assert(gyrod_NOISE_SOURCE_STANDSTILL == static_cast<int>(stream::NoiseSource::kStandstill));
@@ -71,6 +72,7 @@ void from_wire(const Wire& wire, stream::DenoisedSample& sample) noexcept {
   sample = stream::DenoisedSample{};
   copy_raw_fields(wire, sample);
   if constexpr (requires { wire.model_epoch; }) {
+    std::copy_n(wire.rate_std_radps, stream::kAxes, sample.rate_std_radps.begin());
     sample.flags = wire.flags;
     sample.noise_source = static_cast<stream::NoiseSource>(wire.noise_source);
     std::copy_n(wire.noise_floor_radps, stream::kAxes, sample.noise_floor_radps.begin());
@@ -92,6 +94,7 @@ void to_wire(const stream::DenoisedSample& sample, Wire& wire) noexcept {
   wire.sequence_number = sample.sequence;
   wire.stamp_ns = sample.stamp_ns;
   std::copy_n(sample.rate_radps.begin(), stream::kAxes, wire.rate_radps);
+  std::copy_n(sample.rate_std_radps.begin(), stream::kAxes, wire.rate_std_radps);
   wire.flags = sample.flags;
   wire.noise_source = static_cast<std::uint32_t>(sample.noise_source);
   std::copy_n(sample.noise_floor_radps.begin(), stream::kAxes, wire.noise_floor_radps);

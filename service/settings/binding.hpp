@@ -16,6 +16,8 @@ void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.topics.denoised", bus.topics.denoised);
   visit("bus.topics.denoised_batch", bus.topics.denoised_batch);
   visit("bus.topics.noise", bus.topics.noise);
+  visit("bus.topics.realtime", bus.topics.realtime);
+  visit("bus.topics.realtime_batch", bus.topics.realtime_batch);
   visit("bus.input.reliability", bus.input.reliability);
   visit("bus.input.history_depth", bus.input.history_depth);
   visit("bus.input.max_messages", bus.input.max_messages);

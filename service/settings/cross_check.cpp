@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "settings/document.hpp"
+#include "settings/enum_names.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -40,6 +41,17 @@ class CrossCheck {
             quarter_words, {"denoise.window_samples"});
   }
 
+  void check_method() {
+    const bool is_joint = settings_.denoise.method == Method::kJoint;
+    const std::string name(name_of(settings_.denoise.method));
+    require(!is_joint, "denoise.method", name, "\"paper\": this version has no other", {});
+    require(!is_joint || settings_.engine.lag_samples <= stream::kMaxModelLagSamples, "denoise.lag_samples",
+            settings_.engine.lag_samples,
+            "at most " + std::to_string(stream::kMaxModelLagSamples) + " where denoise.method is \"" + name +
+                "\"",
+            {});
+  }
+
   /// More ids must reach the engine than it takes, or a flood of them is dropped unseen.
   void check_sensors() {
     require(settings_.bus.input.max_sensors >= settings_.engine.max_channels, "bus.input.max_sensors",
@@ -50,12 +62,14 @@ class CrossCheck {
 
   void check_topics() {
     const TopicSettings& topics = settings_.bus.topics;
-    const std::array<std::pair<std::string, std::string>, 5> all = {
+    const std::array<std::pair<std::string, std::string>, 7> all = {
         {{"bus.topics.raw", topics.raw},
          {"bus.topics.raw_batch", topics.raw_batch},
          {"bus.topics.denoised", topics.denoised},
          {"bus.topics.denoised_batch", topics.denoised_batch},
-         {"bus.topics.noise", topics.noise}}};
+         {"bus.topics.noise", topics.noise},
+         {"bus.topics.realtime", topics.realtime},
+         {"bus.topics.realtime_batch", topics.realtime_batch}}};
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto& [key, name] = all[i];
       require(is_topic_name(name), key, name, "letters, digits, '_' and '/', not starting with a digit", {});
@@ -105,6 +119,7 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
                  std::vector<SettingsIssue>& issues) {
   CrossCheck check(settings, document, issues);
   check.check_window();
+  check.check_method();
   check.check_sensors();
   check.check_topics();
   check.check_network(directory);

@@ -9,7 +9,7 @@
 namespace gyrod::settings {
 
 constexpr std::array<std::string_view, 2> names_of(Reliability) { return {"reliable", "best_effort"}; }
-constexpr std::array<std::string_view, 1> names_of(Method) { return {"paper"}; }
+constexpr std::array<std::string_view, 2> names_of(Method) { return {"paper", "joint"}; }
 constexpr std::array<std::string_view, core::kSchemes> names_of(core::Scheme) { return core::kSchemeNames; }
 constexpr std::array<std::string_view, 2> names_of(Screening) { return {"windowed", "paper"}; }
 constexpr std::array<std::string_view, 2> names_of(core::BoundaryRule) { return {"mirror", "linear"}; }

@@ -14,7 +14,10 @@
 namespace gyrod::settings {
 
 enum class Reliability : std::uint8_t { kReliable, kBestEffort };
-enum class Method : std::uint8_t { kPaper };
+enum class Method : std::uint8_t {
+  kPaper,
+  kJoint,  ///< a model method
+};
 enum class Screening : std::uint8_t { kWindowed, kPaper };
 enum class LogLevel : std::uint8_t { kTrace, kDebug, kInfo, kWarning, kError };
 
@@ -24,6 +27,8 @@ struct TopicSettings {
   std::string denoised = "gyro/denoised";
   std::string denoised_batch = "gyro/denoised_batch";
   std::string noise = "gyro/noise";
+  std::string realtime = "gyro/realtime";
+  std::string realtime_batch = "gyro/realtime_batch";
 };
 
 struct InputSettings {

@@ -39,8 +39,9 @@ inline BusOptions test_options() {
   const std::string prefix = "test" + std::to_string(getpid()) + "/";
   BusOptions options;
   options.domain_id = kReaderDomain;
-  options.topics = {prefix + "raw", prefix + "raw_batch", prefix + "denoised", prefix + "denoised_batch",
-                    prefix + "noise"};
+  options.topics = {
+      prefix + "raw",   prefix + "raw_batch", prefix + "denoised",      prefix + "denoised_batch",
+      prefix + "noise", prefix + "realtime",  prefix + "realtime_batch"};
   return options;
 }
 

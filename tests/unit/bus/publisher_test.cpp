@@ -25,7 +25,8 @@ std::vector<stream::DenoisedSample> make_denoised(std::uint64_t first, std::size
   std::vector<stream::DenoisedSample> samples;
   for (const stream::Sample& raw : make_samples(first, count)) {
     stream::DenoisedSample sample{raw.sequence, raw.stamp_ns, raw.rate_radps};
-    sample.flags = static_cast<std::uint32_t>(raw.sequence % 16);
+    sample.rate_std_radps = {0.125 * static_cast<double>(raw.sequence), 0.0, 1e-309};
+    sample.flags = static_cast<std::uint32_t>(raw.sequence % 32);
     sample.noise_source = static_cast<stream::NoiseSource>(raw.sequence % 4);
     sample.noise_floor_radps = {0.5, -0.0, 1e-310};
     sample.model_epoch = raw.sequence / 32;
@@ -41,6 +42,7 @@ void expect_same(const std::vector<stream::DenoisedSample>& actual,
     EXPECT_EQ(actual[i].sequence, expected[i].sequence);
     EXPECT_EQ(actual[i].stamp_ns, expected[i].stamp_ns);
     EXPECT_EQ(actual[i].rate_radps, expected[i].rate_radps);
+    EXPECT_EQ(actual[i].rate_std_radps, expected[i].rate_std_radps);
     EXPECT_EQ(actual[i].flags, expected[i].flags);
     EXPECT_EQ(actual[i].noise_source, expected[i].noise_source);
     EXPECT_EQ(actual[i].noise_floor_radps, expected[i].noise_floor_radps);
@@ -93,6 +95,39 @@ TEST_P(PublisherTest, EveryFieldSurvivesAsSingleAndInABatch) {
     expect_same(collector.samples("gyro"), make_denoised(7, 100));
   }
   EXPECT_EQ(publisher.write_errors(), 0U);
+}
+
+TEST_P(PublisherTest, EstimatesWithoutLookAheadHaveTopicsOfTheirOwnAndEndWithTheSensor) {
+  options_.realtime = true;
+  Publisher publisher(writer_domain(), options_);
+  for (const std::string& topic : {options_.topics.realtime, options_.topics.realtime_batch}) {
+    RecordCollector collector;
+    Recorder recorder = matched_recorder(topic);
+    wait_until([&] {
+      publisher.publish("lagged", make_denoised(0, 1));
+      publisher.publish_realtime("first", make_denoised(0, 1));
+      return recorder.poll(std::chrono::milliseconds(1), collector) == Recorder::Poll::kSamples;
+    });
+    publisher.publish_realtime("gyro", make_denoised(7, 100));
+    publisher.unregister_sensor("gyro");
+    wait_until([&] {
+      (void)recorder.poll(std::chrono::milliseconds(100), collector);
+      return !collector.ends().empty();
+    });
+    expect_same(collector.samples("gyro"), make_denoised(7, 100));
+    EXPECT_THAT(collector.ends(), ElementsAre(Pair("gyro", 100)));
+    EXPECT_TRUE(collector.samples("lagged").empty());
+  }
+  EXPECT_TRUE(publisher.wait_for_acknowledgements(kPatience));
+  EXPECT_EQ(publisher.write_errors(), 0U);
+}
+
+TEST_P(PublisherTest, ATopicWithoutLookAheadIsNotOfferedUnasked) {
+  Publisher publisher(writer_domain(), options_);
+  BusOptions renamed = options_;  // so that the topic is not known by its name
+  renamed.topics.realtime = "unused";
+  EXPECT_THROW(Recorder(reader_domain(), renamed, options_.topics.realtime, std::chrono::milliseconds(20)),
+               BusError);
 }
 
 TEST_P(PublisherTest, RecordersSeeTheEndOfASensorAfterItsSamples) {
@@ -183,11 +218,25 @@ TEST_P(PublisherTest, ATopicWithoutAWriterIsNamed) {
 
 /// A report with every array full; axis x holds other figures than y.
 stream::NoiseReport full_report() {
-  stream::NoiseReport report{9, 12345, -6, 16, 32, 99.5, stream::NoiseSource::kStandstill, 5, 0.0015, {}};
+  stream::NoiseReport report{9, 12345,  -6, 16, 32,  99.5, stream::NoiseSource::kStandstill,
+                             5, 0.0015, {}, {}, true};
+  report.model_fit.emplace();
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+    (*report.model_fit)[axis] = {1.5 + static_cast<double>(axis), axis == 1, 3 + axis, 5 + axis};
     core::WindowReport& window = report.axis[axis];
     const auto base = static_cast<double>(axis + 1);
-    window = {1024, core::kMaxImfs, 3, 6, base * 0.1, base * 0.2, base * 0.3, {}};
+    window = {.window_samples = 1024,
+              .imf_count = core::kMaxImfs,
+              .j = 3,
+              .k = 6,
+              .noise_floor = base * 0.1,
+              .output_noise = base * 0.2,
+              .mean = base * 0.3,
+              .modes = axis + 2,
+              .tone_frequency_cycles = base * 0.01,
+              .tone_amplitude = base * 0.02,
+              .direct_model = {},
+              .imf = {}};
     for (std::size_t i = 0; i < core::kMaxImfs; ++i) {
       const double value = base * 100.0 + static_cast<double>(i);
       core::ImfFigures& imf = window.imf[i];
@@ -240,7 +289,18 @@ void expect_same(const gyrod_NoiseReport& wire, const stream::NoiseReport& repor
   EXPECT_EQ(wire.noise_source, static_cast<std::uint32_t>(report.noise_source));
   EXPECT_EQ(wire.flags, report.flags);
   EXPECT_EQ(wire.window_time_s, report.window_time_s);
-  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) expect_same(wire.axis[axis], report.axis[axis]);
+  EXPECT_EQ(wire.at_rest, report.at_rest.value_or(false));
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+    expect_same(wire.axis[axis], report.axis[axis]);
+    const core::WindowReport& window = report.axis[axis];
+    const stream::ModelFit fit = report.model_fit ? (*report.model_fit)[axis] : stream::ModelFit{0.0};
+    EXPECT_EQ(wire.axis[axis].normalised_innovation, fit.normalised_innovation);
+    EXPECT_EQ(wire.axis[axis].model_misfit, fit.misfit);
+    EXPECT_EQ(wire.axis[axis].model_fallbacks, fit.fallbacks);
+    EXPECT_EQ(wire.axis[axis].model_modes, window.modes);
+    EXPECT_EQ(wire.axis[axis].tone_frequency_hz, window.tone_frequency_cycles * report.sample_rate_hz);
+    EXPECT_EQ(wire.axis[axis].tone_amplitude_radps, window.tone_amplitude);
+  }
 }
 
 TEST_P(PublisherTest, AFullAndAnEmptyReportSurviveAndTheLastOneServesALateReader) {

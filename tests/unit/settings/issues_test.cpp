@@ -11,9 +11,11 @@ namespace gyrod::settings {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 
@@ -123,6 +125,18 @@ TEST(SettingsIssues, LimitsThatDependOnAnotherKeyAreMetWithEquality) {
   EXPECT_THAT(messages(R"({"denoise": {"window_samples": 64, "hop_samples": 32, "lag_samples": 16},
                            "limits": {"max_hop_samples": 32, "max_bridged_samples": 16}})"),
               IsEmpty());
+}
+
+TEST(SettingsIssues, AModelMethodLooksNoFurtherAheadThanItsFiltersCarry) {
+  const std::string lag = "denoise.lag_samples is 33; expected at most 32 where denoise.method is \"joint\"";
+  EXPECT_THAT(messages(R"({"denoise": {"method": "joint", "lag_samples": 33}})"), Contains(lag));
+  EXPECT_THAT(messages(R"({"denoise": {"method": "joint", "lag_samples": 32}})"), Not(Contains(lag)));
+  EXPECT_THAT(messages(R"({"denoise": {"method": "paper", "lag_samples": 33}})"), IsEmpty());
+}
+
+TEST(SettingsIssues, AMethodThatThisVersionDoesNotHaveIsRefused) {
+  EXPECT_THAT(messages(R"({"denoise": {"method": "joint"}})"),
+              ElementsAre("denoise.method is \"joint\"; expected \"paper\": this version has no other"));
 }
 
 TEST(SettingsIssues, TopicsHaveToDifferAndToBeNames) {

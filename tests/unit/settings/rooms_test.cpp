@@ -77,6 +77,8 @@ TEST(SettingsRooms, BusDefaultsAgree) {
   EXPECT_EQ(settings.topics.denoised, room.topics.denoised);
   EXPECT_EQ(settings.topics.denoised_batch, room.topics.denoised_batch);
   EXPECT_EQ(settings.topics.noise, room.topics.noise);
+  EXPECT_EQ(settings.topics.realtime, room.topics.realtime);
+  EXPECT_EQ(settings.topics.realtime_batch, room.topics.realtime_batch);
   EXPECT_EQ(settings.input.reliability == Reliability::kReliable,
             room.input_reliability == bus::Reliability::kReliable);
   EXPECT_EQ(settings.input.history_depth == 0, room.input_history == bus::History::kKeepAll);
