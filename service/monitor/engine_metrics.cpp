@@ -20,7 +20,7 @@ struct CountMetric {
 };
 
 using stream::Counts;
-constexpr std::array<CountMetric, 12> kCounts = {{
+constexpr std::array<CountMetric, 14> kCounts = {{
     {"gyrod_samples_received_total", "Samples that arrived.", kCounter, &Counts::received},
     {"gyrod_samples_published_total", "Samples released to the output topics.", kCounter, &Counts::published},
     {"gyrod_samples_in_flight", "Samples accepted and not released yet.", kGauge, &Counts::in_flight},
@@ -40,6 +40,10 @@ constexpr std::array<CountMetric, 12> kCounts = {{
      &Counts::hops_widened},
     {"gyrod_overloads_total", "Times overload step 2 was entered: pass-through.", kCounter,
      &Counts::overloads},
+    {"gyrod_samples_realtime_total", "Samples estimated without look-ahead too, by a model method.", kCounter,
+     &Counts::realtime},
+    {"gyrod_model_misfits_total", "Times the model of an axis ceased to explain the input.", kCounter,
+     &Counts::misfits},
 }};
 
 prometheus::MetricFamily rejected_by_reason(const stream::Counts& counts) {

@@ -15,7 +15,7 @@ struct MonitorOptions {
   std::string address = "127.0.0.1";
   /// TCP port, 0..65535; 0 takes a free one, port() tells which.
   std::uint16_t port = 9464;
-  /// Sensors that get series of their own at the most, in the order of opening. A sensor has at most 34
+  /// Sensors that get series of their own at the most, in the order of opening. A sensor has at most 40
   /// series.
   std::size_t max_channel_series = 200;
   /// What gyrod_build_info says.

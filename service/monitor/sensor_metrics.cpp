@@ -45,7 +45,12 @@ Value overload_step(const ChannelSnapshot& sensor) {
   return widened ? 1.0 : 0.0;
 }
 
-constexpr std::array<Metric<ChannelSnapshot>, 13> kOfSensor = {{
+Value at_rest(const ChannelSnapshot& sensor) {
+  const std::optional<bool>& known = sensor.last_report.at_rest;
+  return known ? Value(*known ? 1.0 : 0.0) : std::nullopt;
+}
+
+constexpr std::array<Metric<ChannelSnapshot>, 16> kOfSensor = {{
     {"gyrod_sensor_samples_received_total", "Samples of the sensor that arrived.", kCounter,
      [](const ChannelSnapshot& s) { return number(s.counts.received); }},
     {"gyrod_sensor_samples_published_total", "Samples of the sensor released.", kCounter,
@@ -71,6 +76,12 @@ constexpr std::array<Metric<ChannelSnapshot>, 13> kOfSensor = {{
      [](const ChannelSnapshot& s) {
        return after_first_window(s, static_cast<double>(s.last_report.noise_source));
      }},
+    {"gyrod_sensor_samples_realtime_total", "Samples of the sensor estimated without look-ahead too.",
+     kCounter, [](const ChannelSnapshot& s) { return number(s.counts.realtime); }},
+    {"gyrod_sensor_model_misfits_total",
+     "Times the model of an axis of the sensor ceased to explain the input.", kCounter,
+     [](const ChannelSnapshot& s) { return number(s.counts.misfits); }},
+    {"gyrod_sensor_at_rest", "1 where the sensor was at rest at its last window's end.", kGauge, at_rest},
     {"gyrod_sensor_last_window_duration_seconds", "Time a worker spent on the sensor's last window.", kGauge,
      [](const ChannelSnapshot& s) { return after_first_window(s, s.last_report.window_time_s); }},
     {"gyrod_sensor_last_window_timestamp_seconds", "Stamp of the newest sample of the sensor's last window.",
@@ -80,26 +91,40 @@ constexpr std::array<Metric<ChannelSnapshot>, 13> kOfSensor = {{
      }},
 }};
 
-Value reduction(const WindowReport& axis) {
-  return axis.noise_floor > 0.0 ? Value(1.0 - axis.output_noise / axis.noise_floor) : std::nullopt;
+/// What the last report says of one axis.
+struct AxisView {
+  const WindowReport& window;
+  const stream::ModelFit* fit;  ///< none with a window method
+};
+
+Value reduction(const AxisView& axis) {
+  const WindowReport& window = axis.window;
+  return window.noise_floor > 0.0 ? Value(1.0 - window.output_noise / window.noise_floor) : std::nullopt;
 }
 
-constexpr std::array<Metric<WindowReport>, 7> kOfAxis = {{
+Value normalised_innovation(const AxisView& axis) {
+  return axis.fit != nullptr ? Value(axis.fit->normalised_innovation) : std::nullopt;
+}
+
+constexpr std::array<Metric<AxisView>, 8> kOfAxis = {{
     {"gyrod_axis_noise_floor_radians_per_second", "Standard deviation of the input's white noise.", kGauge,
-     [](const WindowReport& axis) { return known(axis.noise_floor); }},
+     [](const AxisView& axis) { return known(axis.window.noise_floor); }},
     {"gyrod_axis_output_noise_radians_per_second",
      "Estimated standard deviation of the noise left in the output.", kGauge,
-     [](const WindowReport& axis) { return known(axis.output_noise); }},
+     [](const AxisView& axis) { return known(axis.window.output_noise); }},
     {"gyrod_axis_noise_reduction_ratio", "Part of the noise's standard deviation that is removed, at most 1.",
      kGauge, reduction},
     {"gyrod_axis_mean_radians_per_second", "Mean of the last window.", kGauge,
-     [](const WindowReport& axis) { return Value(axis.mean); }},
+     [](const AxisView& axis) { return Value(axis.window.mean); }},
     {"gyrod_axis_imfs", "Modes of the last window.", kGauge,
-     [](const WindowReport& axis) { return number(axis.imf_count); }},
+     [](const AxisView& axis) { return number(axis.window.imf_count); }},
     {"gyrod_axis_noise_imfs", "j: modes 1 to j of the last window are noise.", kGauge,
-     [](const WindowReport& axis) { return number(axis.j); }},
+     [](const AxisView& axis) { return number(axis.window.j); }},
     {"gyrod_axis_filtered_imfs", "k: modes j+1 to k of the last window are filtered.", kGauge,
-     [](const WindowReport& axis) { return number(axis.k); }},
+     [](const AxisView& axis) { return number(axis.window.k); }},
+    {"gyrod_axis_normalised_innovation",
+     "Mean square of the model's prediction errors over what the model says; 1 where it holds.", kGauge,
+     normalised_innovation},
 }};
 
 prometheus::MetricFamily of_sensors(const Metric<ChannelSnapshot>& kind,
@@ -113,13 +138,15 @@ prometheus::MetricFamily of_sensors(const Metric<ChannelSnapshot>& kind,
   return made;
 }
 
-prometheus::MetricFamily of_axes(const Metric<WindowReport>& kind, std::span<const ChannelSnapshot> shown) {
+prometheus::MetricFamily of_axes(const Metric<AxisView>& kind, std::span<const ChannelSnapshot> shown) {
   static constexpr std::array<const char*, stream::kAxes> kAxisNames = {"x", "y", "z"};
   prometheus::MetricFamily made = family(kind.name, kind.help, kind.type);
   made.metric.reserve(shown.size() * stream::kAxes);
   for (const ChannelSnapshot& sensor : shown) {
     for (std::size_t axis = 0; has_report(sensor) && axis < stream::kAxes; ++axis) {
-      const Value value = kind.value(sensor.last_report.axis[axis]);
+      const stream::NoiseReport& report = sensor.last_report;
+      const stream::ModelFit* fit = report.model_fit ? &(*report.model_fit)[axis] : nullptr;
+      const Value value = kind.value({report.axis[axis], fit});
       if (!value) continue;
       made.metric.push_back(
           metric(kind.type, *value, {{"sensor", sensor.sensor}, {"axis", kAxisNames[axis]}}));

@@ -21,8 +21,14 @@ struct Shown {
 inline stream::ChannelSnapshot busy_sensor(std::string name) {
   stream::ChannelSnapshot sensor;
   sensor.sensor = std::move(name);
-  sensor.counts = {
-      .received = 500, .published = 450, .in_flight = 40, .missing = 4, .gaps = 1, .windows = 15};
+  sensor.counts = {.received = 500,
+                   .published = 450,
+                   .in_flight = 40,
+                   .missing = 4,
+                   .gaps = 1,
+                   .windows = 15,
+                   .realtime = 490,
+                   .misfits = 6};
   sensor.counts.rejected[0] = 3;
   sensor.counts.rejected[2] = 7;
   sensor.queued_windows = 2;
@@ -34,6 +40,8 @@ inline stream::ChannelSnapshot busy_sensor(std::string name) {
   report.noise_source = stream::NoiseSource::kImf1;
   report.flags = static_cast<std::uint32_t>(stream::SampleFlag::kHopWidened);
   report.window_time_s = 0.0015;
+  report.at_rest = true;
+  report.model_fit.emplace();
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
     const double scale = 1.0 + static_cast<double>(axis);
     report.axis[axis].noise_floor = 0.008 * scale;
@@ -42,6 +50,7 @@ inline stream::ChannelSnapshot busy_sensor(std::string name) {
     report.axis[axis].imf_count = 8;
     report.axis[axis].j = 2;
     report.axis[axis].k = 5;
+    (*report.model_fit)[axis].normalised_innovation = 1.5 * scale;
   }
   return sensor;
 }
@@ -70,7 +79,9 @@ inline Shown busy_gyrod() {
             .warming_up = 320,
             .passed_through = 16,
             .hops_widened = 5,
-            .overloads = 1};
+            .overloads = 1,
+            .realtime = 980,
+            .misfits = 8};
   for (std::size_t i = 0; i < stream::kRejectReasons; ++i) totals.rejected[i] = i + 1;
   shown.engine.channels = 2;
   shown.engine.queued_windows = 6;

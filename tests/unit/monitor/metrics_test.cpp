@@ -68,6 +68,8 @@ TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
                                                   {"gyrod_windows_total", 30},
                                                   {"gyrod_hops_widened_total", 5},
                                                   {"gyrod_overloads_total", 1},
+                                                  {"gyrod_samples_realtime_total", 980},
+                                                  {"gyrod_model_misfits_total", 8},
                                                   {"gyrod_sensors", 2},
                                                   {"gyrod_queued_windows", 6},
                                                   {"gyrod_workers", 4},
@@ -146,6 +148,22 @@ TEST(Metrics, FiguresOfASensorAndItsAxesAreThoseOfItsLastReport) {
   EXPECT_EQ(value_of(families, "gyrod_axis_noise_reduction_ratio", y), 0.75);
   EXPECT_EQ(value_of(families, "gyrod_axis_mean_radians_per_second", y), -0.2);
   EXPECT_EQ(value_of(families, "gyrod_axis_filtered_imfs", y), 5.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_samples_realtime_total", sensor), 490.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_model_misfits_total", sensor), 6.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_at_rest", sensor), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_axis_normalised_innovation", y), 3.0);
+}
+
+TEST(Metrics, AWindowMethodHasNoModelToJudgeAndWhereNobodyLooksNoRest) {
+  Shown shown = busy_gyrod();
+  shown.channels[0].last_report.model_fit.reset();
+  shown.channels[0].last_report.at_rest.reset();
+  const auto families = families_of(shown);
+  EXPECT_EQ(value_of(families, "gyrod_axis_normalised_innovation", {{"sensor", "imu_front"}, {"axis", "y"}}),
+            std::nullopt);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_at_rest", {{"sensor", "imu_front"}}), std::nullopt);
+  shown.channels[0].last_report.at_rest = false;
+  EXPECT_EQ(value_of(families_of(shown), "gyrod_sensor_at_rest", {{"sensor", "imu_front"}}), 0.0);
 }
 
 TEST(Metrics, WhatIsNotKnownYetHasNoSeries) {
@@ -171,7 +189,7 @@ TEST(Metrics, ASensorHasAsManySeriesAsTheManualSays) {
       if (label != one.labels.end() && label->second == "imu_front") ++series;
     }
   }
-  EXPECT_EQ(series, 34U);  // MonitorOptions::max_channel_series, docs/configuration.md
+  EXPECT_EQ(series, 40U);  // MonitorOptions::max_channel_series, docs/configuration.md
 }
 
 TEST(Metrics, SensorsBeyondTheCapAreCountedInstead) {
