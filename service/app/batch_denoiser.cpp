@@ -73,6 +73,8 @@ void BatchDenoiser::denoise(Stretch& stretch) {
   report.sample_rate_hz = gate_.rate_hz();
   stretch.denoised = denoise_whole(stretch.measured, options_, report.axis);
   if (stretch.size() < core::Denoiser::kMinSamples) return;
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis)
+    stretch.output_noise[axis] = report.axis[axis].output_noise;
   ++counts_.windows;
   summary_.add(report);
 }
@@ -93,7 +95,7 @@ void BatchDenoiser::hand_on(Row& row) {
   ++counts_.published;
   counts_.passed_through += stretch.size() < core::Denoiser::kMinSamples ? 1U : 0U;
   summary_.add(measured, denoised);
-  handler_.on_denoised(text, denoised);
+  handler_.on_denoised(text, denoised, stretch.output_noise);
 }
 
 std::array<std::vector<double>, stream::kAxes> denoise_whole(

@@ -45,6 +45,8 @@ class BatchDenoiser {
   struct Stretch {
     std::array<std::vector<double>, stream::kAxes> measured;
     std::array<std::vector<double>, stream::kAxes> denoised;
+    /// Noise left in `denoised`, standard deviation, rad/s; 0 if unknown.
+    Rates output_noise{};
 
     [[nodiscard]] std::size_t size() const noexcept { return measured[0].size(); }
   };

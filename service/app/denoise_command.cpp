@@ -26,6 +26,8 @@ struct DenoiseFlags {
   std::string summary;
   std::string scheme;     ///< empty: as configured
   std::string screening;  ///< empty: as configured; for a whole record the paper's
+  std::string estimate = "denoised";
+  bool deviation = false;  ///< columns of it
   bool batch = false;
   std::string models;  ///< empty: identified
   RecordingFlags recording;
@@ -35,9 +37,9 @@ struct DenoiseFlags {
 class RowsToFile final : public RowHandler {
  public:
   explicit RowsToFile(files::RecordingWriter& writer) : writer_(writer) {}
-  void on_denoised(const std::string& row_text,
-                   const std::array<double, stream::kAxes>& rate_radps) override {
-    writer_.write(row_text, rate_radps);
+  void on_denoised(const std::string& row_text, const std::array<double, stream::kAxes>& rate_radps,
+                   const std::array<double, stream::kAxes>& rate_std_radps) override {
+    writer_.write(row_text, rate_radps, rate_std_radps);
   }
   void on_refused(const std::string& row_text) override { writer_.write_unchanged(row_text); }
 
@@ -83,11 +85,18 @@ struct Plan {
   settings::Settings settings;
   bool whole_record = false;
   core::DenoiserOptions options;  ///< of a whole record
+  EstimateKind estimate = EstimateKind::kDenoised;
 };
 
-/// @throws settings::SettingsError
+/// @throws settings::SettingsError, CLI::ValidationError
 Plan plan_of(const DenoiseFlags& flags) {
-  Plan plan{load_or_default(flags.config), flags.batch, {}};
+  Plan plan{load_or_default(flags.config), flags.batch, {}, EstimateKind::kDenoised};
+  if (flags.estimate == "realtime") {
+    if (flags.batch || !is_model_method(plan.settings.denoise))
+      throw CLI::ValidationError("--estimate",
+                                 "realtime needs a model method (denoise.method), without --batch");
+    plan.estimate = EstimateKind::kRealtime;
+  }
   settings::DenoiseSettings& denoise = plan.settings.denoise;
   if (!flags.scheme.empty()) denoise.scheme = *core::scheme_of(flags.scheme);
   const bool paper = flags.screening == "paper" || (flags.batch && flags.screening.empty());
@@ -107,21 +116,23 @@ std::optional<stream::Counts> denoise_all(files::RecordingReader& reader, RowHan
     if (!denoise_rows(reader, denoiser, interrupt)) return std::nullopt;
     return denoiser.counts();
   }
-  OfflineDenoiser denoiser(plan.settings, rows, summary);
+  OfflineDenoiser denoiser(plan.settings, rows, summary, plan.estimate);
   if (!denoise_rows(reader, denoiser, interrupt)) return std::nullopt;
   return denoiser.counts();
 }
 
 DenoiseSummary::Source source_of(const DenoiseFlags& flags, const Plan& plan, std::uint64_t broken_rows) {
   const bool ar = !plan.whole_record || plan.options.models == core::ModelChoice::kAr;
-  return {.input = flags.input,
-          .output = flags.output,
-          .method = "paper",
-          .scheme = std::string(core::name_of(plan.settings.denoise.scheme)),
-          .whole_record = plan.whole_record,
-          .screening = std::string(settings::name_of(plan.settings.denoise.screening)),
-          .models = ar ? "ar" : "identified",
-          .broken_rows = broken_rows};
+  return {
+      .input = flags.input,
+      .output = flags.output,
+      .method = plan.whole_record ? "paper" : std::string(settings::name_of(plan.settings.denoise.method)),
+      .estimate = flags.estimate,
+      .scheme = std::string(core::name_of(plan.settings.denoise.scheme)),
+      .whole_record = plan.whole_record,
+      .screening = std::string(settings::name_of(plan.settings.denoise.screening)),
+      .models = ar ? "ar" : "identified",
+      .broken_rows = broken_rows};
 }
 
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
@@ -130,7 +141,7 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   if (flags.summary == flags.output) throw CLI::ValidationError("--summary", "is the same file as --output");
   const Plan plan = plan_of(flags);
   files::RecordingReader reader(flags.input, flags.recording.options);
-  files::RecordingWriter writer(flags.output, reader.header());
+  files::RecordingWriter writer(flags.output, reader.header(), flags.deviation);
   std::optional<files::OutputFile> summary_file;
   if (!flags.summary.empty()) summary_file.emplace(flags.summary);
 
@@ -152,7 +163,8 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
 }
 
 constexpr const char* kFooter =
-    "The output has the input's columns, names and units; only the angular rates change. Columns:\n"
+    "The output has the input's columns, names and units; only the angular rates change, and --std adds\n"
+    "gyro_std_x_UNIT, gyro_std_y_UNIT, gyro_std_z_UNIT. Columns:\n"
     "  gyro_x_UNIT, gyro_y_UNIT, gyro_z_UNIT   UNIT: radps, mradps, dps, mdps, dph\n"
     "  timestamp_s or stamp_ns (also _us, _ms) time of measurement; without it --rate applies\n"
     "  sample or sequence                      number of the sample; without it rows are counted\n"
@@ -209,6 +221,15 @@ void add_denoise(CLI::App& parser, Action& chosen) {
       ->type_name("FILE");
   command->add_option("--summary", flags->summary, "Write counts and noise figures as JSON")
       ->type_name("FILE.json");
+  command->add_flag("--std", flags->deviation,
+                    "Add columns with the estimated standard deviation of what is left of the noise; 0 where "
+                    "unknown, empty where a sample was refused");
+  command
+      ->add_option(
+          "--estimate", flags->estimate,
+          "denoised: with the configured look-ahead; realtime: without any, model methods only [denoised]")
+      ->type_name("KIND")
+      ->check(one_of({"denoised", "realtime"}));
   add_method_options(*command, *flags);
   flags->recording.add_to(*command);
   command->footer(kFooter);

@@ -67,6 +67,7 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                                           {"input", source.input},
                                           {"output", source.output},
                                           {"method", source.method},
+                                          {"estimate", source.estimate},
                                           {"scheme", source.scheme},
                                           {"mode", source.whole_record ? "batch" : "windowed"},
                                           {"screening", source.screening},
@@ -77,6 +78,7 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                                             {"denoised", counts.published - counts.passed_through},
                                             {"passed_through", counts.passed_through},
                                             {"warming_up", counts.warming_up},
+                                            {"realtime", counts.realtime},
                                             {"rejected", rejected},
                                             {"missing", counts.missing},
                                             {"bridged", counts.bridged}}},
@@ -84,6 +86,7 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                                           {"gaps", counts.gaps},
                                           {"restarts", counts.restarts},
                                           {"windows", counts.windows},
+                                          {"model_misfits", counts.misfits},
                                           {"axes", axes}};
   return summary.dump(2) + "\n";
 }

@@ -35,6 +35,7 @@ class DenoiseSummary {
     std::string input;
     std::string output;
     std::string method;
+    std::string estimate;
     std::string scheme;
     bool whole_record = false;
     std::string screening;

@@ -15,9 +15,10 @@ double clock_that_stands_still() { return 0.0; }
 }  // namespace
 
 OfflineDenoiser::OfflineDenoiser(const settings::Settings& settings, RowHandler& handler,
-                                 DenoiseSummary& summary)
+                                 DenoiseSummary& summary, EstimateKind estimate)
     : handler_(handler),
       summary_(summary),
+      estimate_(estimate),
       engine_(offline_engine_options(settings), method(settings.denoise), *this, clock_that_stands_still) {}
 
 void OfflineDenoiser::push(files::RecordingRow& row) {
@@ -40,7 +41,7 @@ void OfflineDenoiser::hand_on() {
     const WaitingRow row = std::move(waiting_.front());
     waiting_.pop_front();
     summary_.add(row.measured_radps, sample.rate_radps);
-    handler_.on_denoised(row.text, sample.rate_radps);
+    handler_.on_denoised(row.text, sample.rate_radps, sample.rate_std_radps);
   }
   released_.clear();
 }
@@ -54,7 +55,12 @@ void OfflineDenoiser::hand_on_refused() {
 }
 
 void OfflineDenoiser::on_samples(std::string_view, std::span<const stream::DenoisedSample> samples) noexcept {
-  released_.insert(released_.end(), samples.begin(), samples.end());
+  if (estimate_ == EstimateKind::kDenoised) released_.insert(released_.end(), samples.begin(), samples.end());
+}
+
+void OfflineDenoiser::on_realtime(std::string_view,
+                                  std::span<const stream::DenoisedSample> samples) noexcept {
+  if (estimate_ == EstimateKind::kRealtime) released_.insert(released_.end(), samples.begin(), samples.end());
 }
 
 void OfflineDenoiser::on_report(std::string_view, const stream::NoiseReport& report) noexcept {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <span>
@@ -17,6 +18,12 @@
 
 namespace gyrod::app {
 
+/// Which of a method's estimates of a sample is wanted.
+enum class EstimateKind : std::uint8_t {
+  kDenoised,  ///< with the look-ahead that is configured
+  kRealtime,  ///< from this sample and those before it; model methods only
+};
+
 /// Runs the rows of one sensor through an engine without workers. Its clock stands still, so that overload
 /// does not exist here and the result depends on the rows alone: it is what the daemon publishes for them,
 /// bit for bit. Memory: the rows between the newest and the oldest one not released (lag + hop, and refused
@@ -24,7 +31,9 @@ namespace gyrod::app {
 class OfflineDenoiser final : private stream::Sink {
  public:
   /// @param handler, summary have to outlive the denoiser
-  OfflineDenoiser(const settings::Settings& settings, RowHandler& handler, DenoiseSummary& summary);
+  /// @pre the settings' method makes the estimate
+  OfflineDenoiser(const settings::Settings& settings, RowHandler& handler, DenoiseSummary& summary,
+                  EstimateKind estimate = EstimateKind::kDenoised);
 
   /// Takes the next row; its text is moved out. Hands on the rows that this makes ready; what the handler
   /// throws leaves here.
@@ -42,6 +51,8 @@ class OfflineDenoiser final : private stream::Sink {
   };
 
   void on_samples(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept override;
+  void on_realtime(std::string_view sensor,
+                   std::span<const stream::DenoisedSample> samples) noexcept override;
   void on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept override;
   void on_end(std::string_view sensor) noexcept override;
   void hand_on();
@@ -49,6 +60,7 @@ class OfflineDenoiser final : private stream::Sink {
 
   RowHandler& handler_;
   DenoiseSummary& summary_;
+  EstimateKind estimate_;
   std::deque<WaitingRow> waiting_;
   std::vector<stream::DenoisedSample> released_;  ///< by the engine, not handed on yet
   stream::Engine engine_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <variant>
 
 #include "app/version.hpp"
 #include "stream/paper_method.hpp"
@@ -24,7 +25,9 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
                     .raw_batch = settings.topics.raw_batch,
                     .denoised = settings.topics.denoised,
                     .denoised_batch = settings.topics.denoised_batch,
-                    .noise = settings.topics.noise};
+                    .noise = settings.topics.noise,
+                    .realtime = settings.topics.realtime,
+                    .realtime_batch = settings.topics.realtime_batch};
   options.input_reliability = reliability(settings.input.reliability);
   const bool keep_all = settings.input.history_depth == 0;
   options.input_history = keep_all ? bus::History::kKeepAll : bus::History::kKeepLast;
@@ -34,6 +37,12 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
   options.output_reliability = reliability(settings.output.reliability);
   options.output_depth = settings.output.history_depth;
   options.max_batch_samples = settings.max_batch_samples;
+  return options;
+}
+
+bus::BusOptions live_bus_options(const settings::Settings& settings) {
+  bus::BusOptions options = bus_options(settings.bus);
+  options.realtime = is_model_method(settings.denoise);
   return options;
 }
 
@@ -63,7 +72,16 @@ core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings
 }
 
 stream::MethodFactory method(const settings::DenoiseSettings& settings) {
+  switch (settings.method) {
+    case settings::Method::kPaper:
+    case settings::Method::kJoint:  // refused by settings/cross_check
+      break;
+  }
   return stream::paper_method(denoiser_options(settings));
+}
+
+bool is_model_method(const settings::DenoiseSettings& settings) {
+  return std::holds_alternative<stream::ModelMethodFactory>(method(settings));
 }
 
 monitor::MonitorOptions monitor_options(const settings::MonitorSettings& settings) {

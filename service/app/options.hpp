@@ -11,6 +11,8 @@
 namespace gyrod::app {
 
 [[nodiscard]] bus::BusOptions bus_options(const settings::BusSettings& settings);
+/// The same for the daemon, which offers the topics that its method fills.
+[[nodiscard]] bus::BusOptions live_bus_options(const settings::Settings& settings);
 
 /// For the daemon: as many workers as the settings say, or as there are processor cores.
 [[nodiscard]] stream::EngineOptions live_engine_options(const settings::Settings& settings);
@@ -20,6 +22,8 @@ namespace gyrod::app {
 
 [[nodiscard]] core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings);
 [[nodiscard]] stream::MethodFactory method(const settings::DenoiseSettings& settings);
+/// Whether it is a model method: one that also estimates without look-ahead.
+[[nodiscard]] bool is_model_method(const settings::DenoiseSettings& settings);
 [[nodiscard]] monitor::MonitorOptions monitor_options(const settings::MonitorSettings& settings);
 
 }  // namespace gyrod::app

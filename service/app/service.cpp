@@ -16,15 +16,27 @@ constexpr std::chrono::milliseconds kBreath{20};
 
 }  // namespace
 
-void ReleaseToBus::on_samples(std::string_view sensor,
-                              std::span<const stream::DenoisedSample> samples) noexcept {
+/// All at once, or, while there is patience, no more at a time than the writers keep.
+template <class Publish>
+void ReleaseToBus::in_parts(std::span<const stream::DenoisedSample> samples,
+                            const Publish& publish) noexcept {
   while (patience_ns_ > 0 && !samples.empty()) {
     const auto part = samples.first(std::min(samples.size(), depth_));
     let_readers_catch_up(part.size());
-    publisher_.publish(sensor, part);
+    publish(part);
     samples = samples.subspan(part.size());
   }
-  if (!samples.empty()) publisher_.publish(sensor, samples);
+  if (!samples.empty()) publish(samples);
+}
+
+void ReleaseToBus::on_samples(std::string_view sensor,
+                              std::span<const stream::DenoisedSample> samples) noexcept {
+  in_parts(samples, [&](const auto& part) { publisher_.publish(sensor, part); });
+}
+
+void ReleaseToBus::on_realtime(std::string_view sensor,
+                               std::span<const stream::DenoisedSample> samples) noexcept {
+  in_parts(samples, [&](const auto& part) { publisher_.publish_realtime(sensor, part); });
 }
 
 void ReleaseToBus::on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
@@ -51,7 +63,7 @@ void FeedEngine::on_end(std::string_view sensor) noexcept { engine_.end_of_strea
 Service::Service(const settings::Settings& settings)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
       domain_(settings.bus.domain, settings.bus.network),
-      publisher_(domain_, bus_options(settings.bus)),
+      publisher_(domain_, live_bus_options(settings)),
       release_(publisher_, settings.bus.output.history_depth),
       engine_(live_engine_options(settings), method(settings.denoise), release_),
       feed_(engine_),

@@ -29,10 +29,14 @@ class ReleaseToBus final : public stream::Sink {
   }
 
   void on_samples(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept override;
+  void on_realtime(std::string_view sensor,
+                   std::span<const stream::DenoisedSample> samples) noexcept override;
   void on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept override;
   void on_end(std::string_view sensor) noexcept override;
 
  private:
+  template <class Publish>
+  void in_parts(std::span<const stream::DenoisedSample> samples, const Publish& publish) noexcept;
   void let_readers_catch_up(std::size_t samples) noexcept;
 
   bus::Publisher& publisher_;

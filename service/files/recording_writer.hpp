@@ -22,14 +22,16 @@ namespace gyrod::files {
 ///     writer.close();   // without it nothing is left of the output
 class RecordingWriter {
  public:
-  /// @throws FileError as OutputFile does
-  RecordingWriter(const std::string& path, RecordingHeader header);
+  /// @param with_deviation adds a column gyro_std_x_UNIT for each angular rate (x, y, z), in the same unit, at the end of the row
+  /// @throws FileError as OutputFile does, or where the recording has such a column already
+  RecordingWriter(const std::string& path, RecordingHeader header, bool with_deviation = false);
 
   /// @param row_text the row as read (RecordingRow::text), with the header's number of cells
-  /// @param rate_radps x, y, z; an axis the header does not have is left out
-  void write(std::string_view row_text, const std::array<double, stream::kAxes>& rate_radps);
+  /// @param rate_radps, rate_std_radps x, y, z; an axis the header does not have is left out, and without the columns the deviation
+  void write(std::string_view row_text, const std::array<double, stream::kAxes>& rate_radps,
+             const std::array<double, stream::kAxes>& rate_std_radps = {});
 
-  /// Writes the row as it was read: a sample that was refused stays in the recording as it is.
+  /// Writes the row as it was read: a sample that was refused stays in the recording as it is. Its deviation stays empty.
   void write_unchanged(std::string_view row_text);
 
   /// See OutputFile::close().
@@ -38,8 +40,11 @@ class RecordingWriter {
   [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
 
  private:
+  void append_deviation(const std::array<double, stream::kAxes>& rate_std_radps);
+
   OutputFile file_;
   RecordingHeader header_;
+  bool with_deviation_;
   std::vector<std::string_view> cells_;
   std::string line_;
   std::uint64_t rows_ = 0;

@@ -19,7 +19,8 @@ std::string axis_columns(std::string_view prefix, RateUnit unit) {
 std::string header_of(RowKind kind, RateUnit unit) {
   std::string header = "sensor,sequence,stamp_ns" + axis_columns("gyro", unit);
   if (kind == RowKind::kDenoised) {
-    header += ",flags,noise_source" + axis_columns("noise_floor", unit) + ",model_epoch";
+    header += axis_columns("gyro_std", unit) + ",flags,noise_source" + axis_columns("noise_floor", unit) +
+              ",model_epoch";
   }
   if (kind == RowKind::kSimulated) header += axis_columns("truth", unit);
   return header + "\n";
@@ -52,6 +53,7 @@ void SampleWriter::write_measured(std::string_view sensor, const stream::Sample&
 void SampleWriter::write_denoised(std::string_view sensor, const stream::DenoisedSample& sample) {
   assert(kind_ == RowKind::kDenoised);
   begin_row(sensor, sample.sequence, sample.stamp_ns, sample.rate_radps);
+  append_rates(sample.rate_std_radps);
   line_ += ',';
   append_number(line_, std::uint64_t{sample.flags});
   line_ += ',';

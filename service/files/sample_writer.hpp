@@ -17,7 +17,7 @@ namespace gyrod::files {
 enum class RowKind {
   /// sensor, sequence, stamp_ns, gyro_{x,y,z}_U
   kMeasured,
-  /// the same, then flags, noise_source, noise_floor_{x,y,z}_U, model_epoch
+  /// the same, then gyro_std_{x,y,z}_U, flags, noise_source, noise_floor_{x,y,z}_U, model_epoch
   kDenoised,
   /// that of kMeasured, then truth_{x,y,z}_U
   kSimulated,

@@ -20,6 +20,9 @@ constexpr bool kSlowBuild = false;
 #endif
 
 const std::vector<std::string> kRates = {"gyro_x_radps", "gyro_y_radps", "gyro_z_radps"};
+const std::vector<std::string> kRatesAndDeviations = {"gyro_x_radps",     "gyro_y_radps",
+                                                      "gyro_z_radps",     "gyro_std_x_radps",
+                                                      "gyro_std_y_radps", "gyro_std_z_radps"};
 
 class LiveEqualsOffline : public Rig {
  protected:
@@ -38,15 +41,15 @@ class LiveEqualsOffline : public Rig {
 TEST_F(LiveEqualsOffline, OnASimulatedDriveForAnyNumberOfWorkersAndAnyBatch) {
   ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", "5000", "-o", path("drive.csv")}).exit_code,
             0);
-  ASSERT_EQ(run({"denoise", path("drive.csv"), "-o", path("offline.csv")}).exit_code, 0);
-  const auto offline = columns_of(path("offline.csv"), kRates);
+  ASSERT_EQ(run({"denoise", path("drive.csv"), "-o", path("offline.csv"), "--std"}).exit_code, 0);
+  const auto offline = columns_of(path("offline.csv"), kRatesAndDeviations);
   ASSERT_EQ(offline.size(), 5000U);
   for (const std::size_t workers : {1U, 2U, 4U}) {
     const auto daemon = start_daemon({.workers = workers});
     for (const std::size_t batch : {1U, 7U, 64U}) {
       const std::string sensor = "batch" + std::to_string(batch);
       replay(path("drive.csv"), sensor, batch, "radps", sensor + ".csv");
-      EXPECT_EQ(columns_of(path(sensor + ".csv"), kRates), offline)
+      EXPECT_EQ(columns_of(path(sensor + ".csv"), kRatesAndDeviations), offline)
           << workers << " workers, batches of " << batch;
     }
     EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();

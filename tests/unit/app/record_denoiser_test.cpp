@@ -30,13 +30,16 @@ files::Record record_of(std::size_t size, bool with_y = true) {
 }
 
 struct Rows final : app::RowHandler {
-  void on_denoised(const std::string& text, const std::array<double, stream::kAxes>& rates) override {
+  void on_denoised(const std::string& text, const std::array<double, stream::kAxes>& rates,
+                   const std::array<double, stream::kAxes>& deviations) override {
     texts.push_back(text);
     x.push_back(rates[0]);
+    x_deviation.push_back(deviations[0]);
   }
   void on_refused(const std::string& text) override { texts.push_back("refused " + text); }
   std::vector<std::string> texts;
   Signal x;
+  Signal x_deviation;
 };
 
 files::RecordingRow row_of(const files::Record& record, std::size_t n) {

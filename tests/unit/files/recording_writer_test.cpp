@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "files/file_error.hpp"
 #include "files/recording_reader.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -33,6 +34,25 @@ TEST(RecordingWriter, KeepsUnitSeparatorAndMissingAxes) {
   writer.write("7;0", {1.0, 1.0, 0.25});
   writer.close();
   EXPECT_EQ(scratch.read("out.csv"), "t;gyro_z_mradps\n7;250\n");
+}
+
+TEST(RecordingWriter, AddsDeviationsInTheRatesUnitAndNoneToARefusedRow) {
+  const gyrod::testing::ScratchFolder scratch;
+  RecordingWriter writer(scratch.path("out.csv"),
+                         recognise_columns("t;gyro_z_mradps;gyro_x_mradps", "in", true), true);
+  writer.write("7;0;0", {1.0, 9.0, 0.25}, {0.5, 9.0, 0.125});
+  writer.write_unchanged("8;nan;1");
+  writer.close();
+  EXPECT_EQ(scratch.read("out.csv"),
+            "t;gyro_z_mradps;gyro_x_mradps;gyro_std_x_mradps;gyro_std_z_mradps\n"
+            "7;250;1000;500;125\n8;nan;1;;\n");
+}
+
+TEST(RecordingWriter, DoesNotAddDeviationsWhereThereAreSome) {
+  const gyrod::testing::ScratchFolder scratch;
+  const auto header = recognise_columns("gyro_x_dps,gyro_std_x_dps", "in", true);
+  EXPECT_THROW(RecordingWriter(scratch.path("out.csv"), header, true), FileError);
+  EXPECT_NO_THROW(RecordingWriter(scratch.path("out.csv"), header));
 }
 
 TEST(RecordingWriter, NotFiniteRatesAreWrittenAsWords) {

@@ -29,6 +29,7 @@ TEST(SampleWriter, DenoisedRowHasItsColumns) {
   stream::DenoisedSample sample;
   sample.sequence = 3;
   sample.rate_radps = {1.0, 2.0, 3.0};
+  sample.rate_std_radps = {0.01, 0.02, 0.03};
   sample.flags = 5;
   sample.noise_source = stream::NoiseSource::kImf1;
   sample.noise_floor_radps = {0.1, 0.2, 0.3};
@@ -36,9 +37,10 @@ TEST(SampleWriter, DenoisedRowHasItsColumns) {
   writer.write_denoised("imu", sample);
   writer.close();
   EXPECT_EQ(scratch.read("a.csv"),
-            "sensor,sequence,stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps,flags,noise_source,noise_floor_"
-            "x_radps,"
-            "noise_floor_y_radps,noise_floor_z_radps,model_epoch\nimu,3,0,1,2,3,5,1,0.1,0.2,0.3,9\n");
+            "sensor,sequence,stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps,"
+            "gyro_std_x_radps,gyro_std_y_radps,gyro_std_z_radps,flags,noise_source,"
+            "noise_floor_x_radps,noise_floor_y_radps,noise_floor_z_radps,model_epoch\n"
+            "imu,3,0,1,2,3,0.01,0.02,0.03,5,1,0.1,0.2,0.3,9\n");
 }
 
 TEST(SampleWriter, SimulatedRowHoldsTheTruth) {
