@@ -38,6 +38,9 @@ void visit_algorithm(Settings& settings, Visit& visit) {
   visit("denoise.sifts", settings.denoise.sifts);
   visit("denoise.boundary", settings.denoise.boundary);
   visit("denoise.max_ar_order", settings.denoise.max_ar_order);
+  visit("noise.source", settings.noise.source);
+  visit("noise.calibrations", settings.noise.calibrations);
+  visit("noise.state_file", settings.noise.state_file);
   visit("limits.max_hop_samples", settings.engine.max_hop_samples);
   visit("limits.max_channels", settings.engine.max_channels);
   visit("limits.max_rate_radps", settings.engine.max_rate_radps);

@@ -9,6 +9,7 @@
 
 #include "settings/document.hpp"
 #include "settings/enum_names.hpp"
+#include "settings/noise_calibration.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -80,6 +81,32 @@ class CrossCheck {
     }
   }
 
+  /// Reads the calibrations: a start must not find out later.
+  void check_calibrations(const fs::path& directory) {
+    const NoiseSettings& noise = settings_.noise;
+    require(noise.source != NoiseSource::kCalibrated || !noise.calibrations.empty(), "noise.calibrations",
+            noise.calibrations, "a file or folder, for noise.source is \"calibrated\"", {"noise.source"});
+    if (noise.calibrations.empty() || concerned(issues_, "noise.calibrations")) return;
+    try {
+      static_cast<void>(load_calibrations(resolved(noise.calibrations, directory)));
+    } catch (const NoiseFileError& error) {
+      issues_.push_back({.key = "noise.calibrations",
+                         .value = shortened(noise.calibrations),
+                         .expected = "calibrations that can be read",
+                         .message = std::string("noise.calibrations: ") + error.what()});
+    }
+  }
+
+  void check_state_file(const fs::path& directory) {
+    const NoiseSettings& noise = settings_.noise;
+    if (noise.state_file.empty()) return;
+    std::error_code error;
+    const fs::path file = resolved(noise.state_file, directory);
+    require(!fs::is_directory(file, error), "noise.state_file", noise.state_file, "a file, not a folder", {});
+    require(file != resolved(noise.calibrations, directory), "noise.state_file", noise.state_file,
+            "another file than noise.calibrations", {"noise.calibrations"});
+  }
+
   void check_network(const fs::path& directory) {
     const fs::path file = network_file(settings_.bus, directory);
     std::error_code error;
@@ -123,6 +150,8 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_sensors();
   check.check_topics();
   check.check_network(directory);
+  check.check_calibrations(directory);
+  check.check_state_file(directory);
 }
 
 bool concerned(const std::vector<SettingsIssue>& issues, std::string_view key) {
@@ -143,9 +172,13 @@ const json* given_value(const json& document, std::string_view key) {
   return value;
 }
 
+fs::path resolved(const std::string& path, const fs::path& directory) {
+  return path.empty() ? fs::path() : fs::absolute(directory / path).lexically_normal();
+}
+
 fs::path network_file(const BusSettings& bus, const fs::path& directory) {
   if (bus.network == "loopback" || bus.network == "default") return {};
-  return fs::absolute(directory / bus.network).lexically_normal();
+  return resolved(bus.network, directory);
 }
 
 }  // namespace gyrod::settings

@@ -14,7 +14,7 @@ namespace gyrod::settings {
 /// Adds an issue for every rule that the settings break. A rule about a key that has an issue already is left
 /// out: its value is not known.
 /// @param document  what was given, to tell a given value from a default
-/// @param directory what the path in bus.network is relative to
+/// @param directory what the paths in bus.network and noise are relative to
 void cross_check(const Settings& settings, const nlohmann::json& document,
                  const std::filesystem::path& directory, std::vector<SettingsIssue>& issues);
 
@@ -23,6 +23,9 @@ void cross_check(const Settings& settings, const nlohmann::json& document,
 
 /// The value of a key, or nullptr if the document does not give it.
 [[nodiscard]] const nlohmann::json* given_value(const nlohmann::json& document, std::string_view key);
+
+/// A path of the configuration made absolute; empty stays empty.
+[[nodiscard]] std::filesystem::path resolved(const std::string& path, const std::filesystem::path& directory);
 
 /// The Cyclone DDS XML file that bus.network names, empty for "loopback" and "default".
 [[nodiscard]] std::filesystem::path network_file(const BusSettings& bus,

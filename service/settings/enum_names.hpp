@@ -13,6 +13,9 @@ constexpr std::array<std::string_view, 2> names_of(Method) { return {"paper", "j
 constexpr std::array<std::string_view, core::kSchemes> names_of(core::Scheme) { return core::kSchemeNames; }
 constexpr std::array<std::string_view, 2> names_of(Screening) { return {"windowed", "paper"}; }
 constexpr std::array<std::string_view, 2> names_of(core::BoundaryRule) { return {"mirror", "linear"}; }
+constexpr std::array<std::string_view, 4> names_of(NoiseSource) {
+  return {"auto", "calibrated", "standstill", "imf1"};
+}
 constexpr std::array<std::string_view, 5> names_of(LogLevel) {
   return {"trace", "debug", "info", "warning", "error"};
 }

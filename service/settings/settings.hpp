@@ -19,6 +19,8 @@ enum class Method : std::uint8_t {
   kJoint,  ///< a model method
 };
 enum class Screening : std::uint8_t { kWindowed, kPaper };
+/// Where the level of a sensor's own noise comes from.
+enum class NoiseSource : std::uint8_t { kAuto, kCalibrated, kStandstill, kImf1 };
 enum class LogLevel : std::uint8_t { kTrace, kDebug, kInfo, kWarning, kError };
 
 struct TopicSettings {
@@ -67,6 +69,14 @@ struct DenoiseSettings {
   std::size_t max_ar_order = 6;
 };
 
+struct NoiseSettings {
+  NoiseSource source = NoiseSource::kAuto;
+  /// A file of `gyrod calibrate` or a folder of them (made absolute by loading; see load_calibrations()); empty: none.
+  std::string calibrations;
+  /// Where learned noise is kept (made absolute by loading); empty: nowhere.
+  std::string state_file;
+};
+
 struct MonitorSettings {
   bool enabled = true;
   std::string address = "127.0.0.1";
@@ -77,6 +87,7 @@ struct MonitorSettings {
 struct Settings {
   BusSettings bus;
   DenoiseSettings denoise;
+  NoiseSettings noise;
   /// From the groups `denoise` and `limits`. `engine.workers` is not a key of its own: see `workers`.
   stream::EngineOptions engine;
   /// Worker threads; 0 asks for one per core. Whoever makes the Engine sets engine.workers from it.
