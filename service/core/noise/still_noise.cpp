@@ -17,12 +17,14 @@ struct Segment {
   double variance = 0.0;
 };
 
-std::vector<Segment> segments_of(std::span<const double> still) {
+std::vector<Segment> segments_of(std::span<const std::span<const double>> stretches) {
   Periodogram periodogram(kNoiseSegment);
   std::vector<Segment> segments;
-  for (std::size_t first = 0; first + kNoiseSegment <= still.size(); first += kStep) {
-    Segment& segment = segments.emplace_back();
-    segment.variance = periodogram.transform(still.subspan(first, kNoiseSegment), segment.power);
+  for (const auto still : stretches) {
+    for (std::size_t first = 0; first + kNoiseSegment <= still.size(); first += kStep) {
+      Segment& segment = segments.emplace_back();
+      segment.variance = periodogram.transform(still.subspan(first, kNoiseSegment), segment.power);
+    }
   }
   return segments;
 }
@@ -39,8 +41,15 @@ double median_variance(const std::vector<Segment>& segments) {
 }  // namespace
 
 std::optional<NoiseModel> still_noise(std::span<const double> still) {
-  if (still.size() < kMinStillSamples) return std::nullopt;
-  const std::vector<Segment> segments = segments_of(still);
+  return still_noise(std::span(&still, 1));
+}
+
+std::optional<NoiseModel> still_noise(std::span<const std::span<const double>> stretches) {
+  std::size_t samples = 0;
+  for (const auto still : stretches) samples += still.size();
+  if (samples < kMinStillSamples) return std::nullopt;
+  const std::vector<Segment> segments = segments_of(stretches);
+  if (segments.empty()) return std::nullopt;
   const double median = median_variance(segments);
   if (!(median > 0.0)) return std::nullopt;
   NoiseSpectrum sum{};

@@ -25,4 +25,7 @@ inline constexpr double kNoiseMargin = 1.02;
 /// Allocates; takes about 4 us per segment.
 [[nodiscard]] std::optional<NoiseModel> still_noise(std::span<const double> still);
 
+/// The same from several stretches of one axis, together of kMinStillSamples at least. No segment spans two.
+[[nodiscard]] std::optional<NoiseModel> still_noise(std::span<const std::span<const double>> stretches);
+
 }  // namespace gyrod::core
