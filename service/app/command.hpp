@@ -24,5 +24,6 @@ void add_simulate(CLI::App& parser, Action& chosen);
 void add_report(CLI::App& parser, Action& chosen);
 void add_allan(CLI::App& parser, Action& chosen);
 void add_navigate(CLI::App& parser, Action& chosen);
+void add_calibrate(CLI::App& parser, Action& chosen);
 
 }  // namespace gyrod::app

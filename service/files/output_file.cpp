@@ -22,6 +22,15 @@ constexpr const char* kCompressed = "wb3";
 constexpr const char* kPlain = "wbT";
 constexpr unsigned kBufferBytes = 256U << 10U;
 
+/// The new name is in the folder, which a power failure could still take back. As far as the folder may be opened and knows of it.
+void sync_folder_of(const fs::path& file) noexcept {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
 }  // namespace
 
 void OutputFile::Close::operator()(gzFile_s* file) const noexcept { gzclose_w(file); }
@@ -79,6 +88,7 @@ void OutputFile::close() {
       fail(reason);
     }
     temporary_.clear();
+    sync_folder_of(target_);
   }
   discard();
 }

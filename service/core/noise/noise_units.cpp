@@ -29,7 +29,7 @@ NoiseModel from_angle_random_walk(double random_walk, double sample_rate_hz) noe
 }
 
 double lag_one_correlation(const NoiseModel& model) noexcept {
-  if (!is_usable(model)) return 0.0;
+  if (!is_usable(model) || model.colour_order == 0) return 0.0;
   double all = 0.0;
   double lagged = 0.0;
   for (int k = 0; k < kFrequencies; ++k) {

@@ -1,0 +1,195 @@
+#include "app/noise_calibrator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "core/noise/noise_units.hpp"
+#include "core/noise/still_noise.hpp"
+#include "core/signal/moments.hpp"
+#include "files/file_error.hpp"
+#include "files/navigation_columns.hpp"
+
+namespace gyrod::app {
+namespace {
+
+using Samples = std::span<const double>;
+using core::RestVerdict;
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+constexpr double kSqrtSecondsPerSqrtHour = 60.0;
+/// Stretches that are named one by one.
+constexpr std::size_t kNamedStretches = 5;
+
+/// The part of the recording between from and to.
+struct Part {
+  std::size_t first = 0;
+  std::size_t size = 0;
+};
+
+Part part_of(const files::Record& record, const CalibrationOptions& options) {
+  const auto begin = std::ranges::lower_bound(record.time_s, options.from_s);
+  const auto end = std::ranges::upper_bound(record.time_s, options.to_s);
+  if (begin >= end) {
+    throw files::FileError(fmt::format(
+        "{}: nothing between {:g} s and {:g} s; expected times within the {:.1f} s of the recording",
+        record.name, options.from_s, options.to_s, record.time_s.back()));
+  }
+  return {.first = static_cast<std::size_t>(begin - record.time_s.begin()),
+          .size = static_cast<std::size_t>(end - begin)};
+}
+
+bool has_accelerometer(const files::Record& record) {
+  return std::ranges::any_of(record.others,
+                             [](const auto& column) { return column.first.starts_with("accel_x_"); });
+}
+
+/// Axes of the part; a missing axis counts as 0, which is an axis that never changes.
+core::StillSearch search(const files::Record& record, Part part, const std::function<bool(double)>& go_on) {
+  const std::vector<double> absent(part.size, 0.0);
+  core::StillInput input;
+  for (std::size_t a = 0; a < input.rate.size(); ++a) {
+    const std::vector<double>& axis = record.gyro_radps[a];
+    input.rate[a] = axis.empty() ? Samples(absent) : Samples(axis).subspan(part.first, part.size);
+  }
+  files::Accelerometer accelerometer;
+  if (has_accelerometer(record)) {
+    accelerometer = files::accelerometer_of(record);
+    for (std::size_t a = 0; a < input.accelerometer.size(); ++a)
+      input.accelerometer[a] = Samples(accelerometer.specific_force_mps2[a]).subspan(part.first, part.size);
+  }
+  bool stopped = false;
+  core::StillSearch found = core::find_still(input, record.sample_rate_hz, [&](double done) {
+    stopped = !go_on(done);
+    return !stopped;
+  });
+  if (stopped) throw files::Stopped{};
+  return found;
+}
+
+std::string excuse(const core::StillSearch& found, double rate) {
+  const auto seconds = [&](RestVerdict verdict) {
+    return static_cast<double>(found.verdicts[static_cast<std::size_t>(verdict)]) / rate;
+  };
+  std::string text;
+  const auto add = [&text](double s, const char* what) {
+    if (s >= 0.5) text += fmt::format("{}{:.1f} s {}", text.empty() ? "" : ", ", s, what);
+  };
+  add(seconds(RestVerdict::kUneven), "change in level");
+  add(seconds(RestVerdict::kWandering), "turn slowly");
+  add(seconds(RestVerdict::kTone), "hold a tone (an engine, a fan)");
+  add(seconds(RestVerdict::kFrozen), "do not change at all");
+  add(static_cast<double>(found.louder) / rate, "are steady, but louder than the quietest part");
+  return text.empty() ? "" : "; of the rest " + text;
+}
+
+void require_enough(const NoiseCalibrationRun& run, const files::Record& record,
+                    const CalibrationOptions& options) {
+  const double rate = record.sample_rate_hz;
+  const double still_s = static_cast<double>(run.found.still) / rate;
+  if (still_s >= options.least_still_s && run.found.still >= core::kMinStillSamples) return;
+  const double needed_s = std::max(options.least_still_s, static_cast<double>(core::kMinStillSamples) / rate);
+  std::string text =
+      fmt::format("{}: {:.1f} s of {:.1f} s are at rest{}; expected {:.0f} s at least", record.name, still_s,
+                  static_cast<double>(run.samples) / rate, excuse(run.found, rate), needed_s);
+  if (!options.all_still) text += ". --all-still takes all of it as still";
+  throw files::FileError(text);
+}
+
+void fit_axes(const files::Record& record, NoiseCalibrationRun& run) {
+  bool any = false;
+  for (std::size_t a = 0; a < record.gyro_radps.size(); ++a) {
+    const std::vector<double>& axis = record.gyro_radps[a];
+    if (axis.empty()) continue;
+    std::vector<Samples> still;
+    double sum = 0.0;
+    for (const core::Stretch& stretch : run.found.stretches) {
+      still.push_back(Samples(axis).subspan(stretch.first, stretch.size));
+      sum += core::mean(still.back()) * static_cast<double>(stretch.size);
+    }
+    const auto model = core::still_noise(still);
+    if (!model) continue;
+    any = true;
+    run.calibration.models[a] = *model;
+    run.calibration.bias_radps[a] = sum / static_cast<double>(run.found.still);
+  }
+  if (!any) throw files::FileError(record.name + ": no axis changes; expected the noise of a sensor");
+}
+
+}  // namespace
+
+NoiseCalibrationRun calibrate_noise(const files::Record& record, const CalibrationOptions& options,
+                                    const std::function<bool(double done)>& go_on) {
+  const Part part = part_of(record, options);
+  NoiseCalibrationRun run;
+  run.samples = part.size;
+  run.first_s = record.time_s[part.first];
+  run.with_accelerometer = !options.all_still && has_accelerometer(record);
+  if (options.all_still) {
+    run.found = {.stretches = {{0, part.size}}, .still = part.size, .louder = 0, .verdicts = {}};
+  } else {
+    run.found = search(record, part, go_on);
+  }
+  for (core::Stretch& stretch : run.found.stretches) stretch.first += part.first;
+  require_enough(run, record, options);
+  settings::NoiseCalibration& calibration = run.calibration;
+  if (!options.sensor_id.empty()) calibration.sensor_id = options.sensor_id;
+  calibration.sample_rate_hz = record.sample_rate_hz;
+  calibration.origin = {.source = std::filesystem::path(record.name).filename().string(),
+                        .first_stamp_s = record.first_stamp_s,
+                        .still_s = static_cast<double>(run.found.still) / record.sample_rate_hz};
+  fit_axes(record, run);
+  return run;
+}
+
+std::string calibration_table(const settings::NoiseCalibration& calibration) {
+  std::string text =
+      fmt::format("{:<4} {:>10} {:>10} {:>14} {:>12} {:>12}\n{:<4} {:>10} {:>10} {:>14} {:>12} {:>12}\n",
+                  "axis", "bias", "std", "noise density", "ARW", "lag-1", "", "deg/s", "deg/s",
+                  "deg/s/sqrt(Hz)", "deg/sqrt(h)", "correlation");
+  const double rate = calibration.sample_rate_hz;
+  const bool measured = calibration.origin.still_s.has_value();
+  for (std::size_t a = 0; a < calibration.models.size(); ++a) {
+    const core::NoiseModel& model = calibration.models[a];
+    if (!core::is_usable(model)) {
+      text += fmt::format("{:<4} no noise: not there, or never changes\n", "xyz"[a]);
+      continue;
+    }
+    const std::string bias =
+        measured ? fmt::format("{:.4f}", calibration.bias_radps[a] * kDegPerRad) : std::string("-");
+    text += fmt::format("{:<4} {:>10} {:>10.4f} {:>14.5f} {:>12.3f} {:>12.2f}\n", "xyz"[a], bias,
+                        std::sqrt(core::noise_variance(model)) * kDegPerRad,
+                        core::noise_density(model, rate) * kDegPerRad,
+                        core::angle_random_walk(model, rate) * kDegPerRad * kSqrtSecondsPerSqrtHour,
+                        core::lag_one_correlation(model));
+  }
+  return text;
+}
+
+std::string stretches_text(const NoiseCalibrationRun& run) {
+  const double rate = run.calibration.sample_rate_hz;
+  const auto seconds = [rate](std::size_t samples) { return static_cast<double>(samples) / rate; };
+  const auto& stretches = run.found.stretches;
+  std::string text =
+      fmt::format("{}: {:.1f} s of {:.1f} s at rest, {:g} Hz{}\n", run.calibration.origin.source,
+                  seconds(run.found.still), seconds(run.samples), rate,
+                  run.with_accelerometer ? ", by gyro and accelerometer" : "");
+  if (run.found.still == run.samples) return text;
+  for (std::size_t i = 0; i < std::min(stretches.size(), kNamedStretches); ++i) {
+    text += fmt::format("  still from {:.1f} s to {:.1f} s\n", seconds(stretches[i].first),
+                        seconds(stretches[i].first + stretches[i].size));
+  }
+  if (stretches.size() > kNamedStretches)
+    text += fmt::format("  and {} more stretches\n", stretches.size() - kNamedStretches);
+  const std::string rest = excuse(run.found, rate);
+  if (!rest.empty()) text += "  " + rest.substr(2) + "\n";
+  return text;
+}
+
+}  // namespace gyrod::app

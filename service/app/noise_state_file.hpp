@@ -1,0 +1,37 @@
+/// The file that keeps what was learned of the sensors' noise across restarts.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "settings/noise_state.hpp"
+
+namespace gyrod::app {
+
+/// Trouble with it never ends the daemon: it costs what was learned, no more. One thread at a time.
+class NoiseStateFile {
+ public:
+  /// Takes one line for the log.
+  using Warn = std::function<void(const std::string&)>;
+
+  /// @param path empty: nothing is read or written
+  NoiseStateFile(std::string path, Warn warn);
+
+  /// What the file holds. Nothing where there is no file, and, with a warning that names file, place and what was expected, where it is
+  /// damaged or of another version: then it is put aside under its name and ".damaged" (over one from before), so that saving
+  /// does not destroy it. A file that cannot be read is warned about and stays.
+  [[nodiscard]] settings::NoiseStates load();
+
+  /// Replaces the file in one step: who reads it, after a power failure too, finds the old or the new one in full.
+  /// Trouble is warned about once, until a save has worked again. @return whether it worked; true if there is nothing to do
+  bool save(const settings::NoiseStates& states);
+
+ private:
+  void put_aside(const std::string& reason);
+
+  std::string path_;
+  Warn warn_;
+  bool in_trouble_ = false;
+};
+
+}  // namespace gyrod::app

@@ -1,0 +1,115 @@
+/// gyrod calibrate as a user runs it: the table, the file, and what it says of recordings that move.
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/exit_code.hpp"
+#include "rig.hpp"
+
+namespace gyrod::testing {
+namespace {
+
+using app::ExitCode;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+class CalibrateCommand : public Rig {
+ protected:
+  /// At 100 Hz: still for so long, then a drive of as long; white noise of 0.2 deg/s throughout.
+  std::string recording(int still_s, int drive_s) {
+    std::mt19937_64 bits(11);
+    std::normal_distribution<double> normal(0.0, 0.2);
+    std::ostringstream text;
+    text << "timestamp_s,gyro_x_dps,gyro_y_dps,gyro_z_dps\n";
+    for (int n = 0; n < 100 * (still_s + drive_s); ++n) {
+      const double t = 0.01 * n;
+      const double yaw = t < still_s ? 0.0 : 8.0 * std::sin(0.7 * (t - still_s));
+      text << t << ',' << 0.5 + normal(bits) << ',' << normal(bits) << ',' << yaw + normal(bits) << '\n';
+    }
+    write_file("in.csv", text.str());
+    return path("in.csv");
+  }
+  Result calibrate(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "calibrate");
+    return run(arguments);
+  }
+};
+
+TEST_F(CalibrateCommand, FindsTheStillPartAndItsNoise) {
+  const Result result = calibrate({recording(60, 60), "-o", path("cal.json"), "--sensor", "front"});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("in.csv: 60.0 s of 120.0 s at rest, 100 Hz"),
+                                HasSubstr("still from 0.0 s to 60.0 s"), HasSubstr("deg/s/sqrt(Hz)"),
+                                HasSubstr("for sensor front")));
+  const Json document = Json::parse(read_file("cal.json"));
+  EXPECT_EQ(document.at("sensor_id"), "front");
+  EXPECT_EQ(document.at("origin").at("source"), "in.csv");
+  EXPECT_NEAR(document.at("origin").at("still_s").get<double>(), 60.0, 1e-6);
+  for (const char* axis : {"x", "y", "z"}) {
+    // 0.2 to four standard errors of 0.93 %.
+    EXPECT_NEAR(document.at("figures").at(axis).at("std_dps").get<double>(), 0.2, 0.2 * 0.037) << axis;
+  }
+  EXPECT_NEAR(document.at("axes").at("x").at("bias_radps").get<double>() * 180.0 / std::numbers::pi, 0.5,
+              0.011);
+}
+
+TEST_F(CalibrateCommand, RefusesARecordingThatMovesAndSaysHowMuch) {
+  const Result result = calibrate({recording(5, 60), "-o", path("cal.json")});
+  EXPECT_EQ(result.exit_code, ExitCode::kFileTrouble);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("0.0 s of 65.0 s are at rest; of the rest"),
+                    HasSubstr("expected 30 s at least"), HasSubstr("--all-still takes all of it as still")));
+  EXPECT_FALSE(exists("cal.json"));
+}
+
+TEST_F(CalibrateCommand, TakesThePartThatIsNamedOnTheUsersWord) {
+  const Result result =
+      calibrate({recording(5, 60), "-o", path("cal.json"), "--from", "20", "--to", "60", "--all-still"});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("40.0 s of 40.0 s at rest"));
+}
+
+TEST_F(CalibrateCommand, TakesTheFiguresOfADataSheet) {
+  const Result result = calibrate({"--noise-density", "0.05", "--rate", "100", "-o", path("cal.json")});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  // 0.05 sqrt(100 / 2) = 0.3536 and 60 * 0.05 / sqrt(2) = 2.121.
+  EXPECT_THAT(result.out, AllOf(HasSubstr("0.3536"), HasSubstr("0.05000"), HasSubstr("2.121"),
+                                HasSubstr("for all sensors")));
+  const Result three = calibrate({"--arw", "1,2,3", "--rate", "100", "-o", "-"});
+  ASSERT_EQ(three.exit_code, ExitCode::kDone) << three.err;
+  EXPECT_NEAR(Json::parse(three.out).at("figures").at("z").at("arw_deg_per_sqrt_h").get<double>(), 3.0, 1e-9);
+}
+
+TEST_F(CalibrateCommand, SaysWhatIsWrongWithTheCommandLine) {
+  const auto complaint = [this](const std::vector<std::string>& arguments) {
+    const Result result = calibrate(arguments);
+    EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
+    return result.err;
+  };
+  EXPECT_THAT(complaint({"-o", "x"}), HasSubstr("expected either a recording or --noise-density or --arw"));
+  EXPECT_THAT(complaint({"--arw", "2", "-o", "x"}), HasSubstr("--rate is missing"));
+  EXPECT_THAT(complaint({"--arw", "2,2", "--rate", "100", "-o", "x"}), HasSubstr("2 values given"));
+  EXPECT_THAT(complaint({"--arw", "2", "--noise-density", "1", "--rate", "100", "-o", "x"}),
+              HasSubstr("expected one of them"));
+  EXPECT_THAT(complaint({"--noise-density", "-1", "--rate", "100", "-o", "x"}),
+              HasSubstr("expected a number from"));
+}
+
+TEST_F(CalibrateCommand, WritesWhatTheConfigurationTakes) {
+  ASSERT_EQ(calibrate({"--arw", "2", "--rate", "100", "-o", path("cal.json")}).exit_code, ExitCode::kDone);
+  write_file("gyrod.json", R"({"noise": {"source": "calibrated", "calibrations": "cal.json"}})");
+  const Result result = run({"validate", "--config", path("gyrod.json")});
+  EXPECT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+}
+
+}  // namespace
+}  // namespace gyrod::testing

@@ -1,0 +1,114 @@
+#include "app/noise_state_file.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/scratch_folder.hpp"
+
+namespace gyrod::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+settings::NoiseStates states(double rest_seconds) {
+  core::StandstillState state;
+  state.sample_rate_hz = 100.0;
+  state.rest_seconds = rest_seconds;
+  state.segments = 20.0;
+  state.bias_seconds = 60.0;
+  state.models.fill(core::white_noise(1e-5));
+  return {{"front", state}};
+}
+
+class NoiseStateFileTest : public ::testing::Test {
+ protected:
+  NoiseStateFile file(const std::string& path) {
+    return {path, [this](const std::string& line) { warnings.push_back(line); }};
+  }
+  testing::ScratchFolder folder;
+  std::string path = folder.path("noise.json");
+  std::vector<std::string> warnings;
+};
+
+TEST_F(NoiseStateFileTest, KeepsWhatWasSaved) {
+  EXPECT_THAT(file(path).load(), IsEmpty()) << "no file yet, which is no trouble";
+  NoiseStateFile first = file(path);
+  EXPECT_TRUE(first.save(states(60.0)));
+  EXPECT_TRUE(first.save(states(120.0)));
+  EXPECT_EQ(file(path).load().at("front").rest_seconds, 120.0);
+  EXPECT_EQ(folder.files(), 1U) << "nothing temporary is left";
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+TEST_F(NoiseStateFileTest, DoesNothingWithoutAPath) {
+  NoiseStateFile none = file("");
+  EXPECT_THAT(none.load(), IsEmpty());
+  EXPECT_TRUE(none.save(states(60.0)));
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+TEST_F(NoiseStateFileTest, PutsADamagedFileAsideWithOneWarning) {
+  ASSERT_TRUE(file(path).save(states(60.0)));
+  const std::string good = folder.read("noise.json");
+  folder.write("noise.json", good.substr(0, good.size() / 2));
+  NoiseStateFile damaged = file(path);
+  EXPECT_THAT(damaged.load(), IsEmpty());
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr(path + ": line ")));
+  EXPECT_THAT(warnings.front(),
+              HasSubstr("; noise is learned anew, the file is kept as " + path + ".damaged"));
+  EXPECT_EQ(folder.read("noise.json.damaged"), good.substr(0, good.size() / 2));
+  EXPECT_TRUE(damaged.save(states(90.0)));
+  EXPECT_EQ(file(path).load().at("front").rest_seconds, 90.0);
+  EXPECT_THAT(warnings, SizeIs(1));
+}
+
+TEST_F(NoiseStateFileTest, PutsAnotherVersionAside) {
+  folder.write("noise.json", R"({"gyrod_noise_state": 7, "sensors": {}})");
+  EXPECT_THAT(file(path).load(), IsEmpty());
+  EXPECT_THAT(
+      warnings,
+      ElementsAre(HasSubstr("gyrod_noise_state is 7; expected 1, the version that this gyrod knows")));
+}
+
+TEST_F(NoiseStateFileTest, LeavesWhatIsNoFileOrTooLarge) {
+  std::filesystem::create_directory(path);
+  EXPECT_THAT(file(path).load(), IsEmpty());
+  EXPECT_THAT(warnings, ElementsAre(path + ": is a directory, not a file; noise is learned anew"));
+  std::filesystem::remove(path);
+  folder.write("noise.json", "");
+  std::filesystem::resize_file(path, (std::uintmax_t{128} << 20U) + 1);  // sparse
+  EXPECT_THAT(file(path).load(), IsEmpty());
+  EXPECT_THAT(warnings.back(), HasSubstr("is larger than 128 MiB; noise is learned anew"));
+}
+
+TEST_F(NoiseStateFileTest, WarnsOnceThatItCannotBeWrittenAndAgainAfterItCould) {
+  NoiseStateFile there = file(folder.path("state/noise.json"));
+  EXPECT_FALSE(there.save(states(60.0)));
+  EXPECT_FALSE(there.save(states(61.0)));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr(
+                            "/state/noise.json: cannot be written: No such file or directory; learned "
+                            "noise is not kept across a restart")));
+  std::filesystem::create_directory(folder.path("state"));
+  EXPECT_TRUE(there.save(states(62.0)));
+  std::filesystem::remove_all(folder.path("state"));
+  EXPECT_FALSE(there.save(states(63.0)));
+  EXPECT_THAT(warnings, SizeIs(2));
+}
+
+TEST_F(NoiseStateFileTest, SurvivesAFullDisk) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  NoiseStateFile full = file("/dev/full");
+  EXPECT_FALSE(full.save(states(60.0)));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("No space left on device")));
+}
+
+}  // namespace
+}  // namespace gyrod::app
