@@ -1,0 +1,45 @@
+/// Whatever makes an estimate of a rate from a noisy record, so that all are judged alike.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gyrod::core {
+
+/// Samples [begin, end) of the truth.
+struct SampleRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Where an estimate is put together from pieces: the first sample of each piece is n with n mod period = first.
+struct JointPattern {
+  std::size_t period = 0;  ///< above 0
+  std::size_t first = 0;
+};
+
+/// What one estimator made of one record. All rates in one unit, that of the record.
+struct Contender {
+  std::string name;
+  /// The estimate of sample t is published when sample t + lag_samples has come in.
+  std::size_t lag_samples = 0;
+  /// estimate[t] is of the truth at t, whenever it was published; NaN where there is none.
+  std::vector<double> estimate;
+  /// The standard deviation that the estimator itself claims for each estimate; nothing: it claims none.
+  std::optional<std::vector<double>> std;
+  std::optional<JointPattern> joints;
+};
+
+/// An estimator that can be run on any record: guards run it on records with a swing added, turns on records of their own.
+struct Method {
+  std::string name;
+  std::size_t lag_samples = 0;
+  /// @param noisy finite  @return estimates of every sample of it
+  std::function<Contender(std::span<const double> noisy)> run;
+};
+
+}  // namespace gyrod::core

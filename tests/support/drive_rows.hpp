@@ -1,0 +1,131 @@
+/// Rows on which estimators are compared: what a car's reference gyro measured, plus the noise of a sensor that lay still. Made from
+/// the recordings of GYROD_DATA; whoever uses them skips where that folder is absent. Link gyrod_files.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/signal/interpolation.hpp"
+#include "files/record.hpp"
+
+namespace gyrod::test {
+
+/// Samples [kJudgedBegin, kJudgedEnd) are judged: 20 s to 80 s at 120 Hz, when every estimator has settled.
+inline constexpr std::size_t kJudgedBegin = 2400;
+inline constexpr std::size_t kJudgedEnd = 9600;
+
+/// One recording and axis at one scale of the noise. All rates in deg/s.
+struct DriveRow {
+  std::string name;  ///< "06 x", "09 z at 0.3"
+  std::string drive;
+  std::size_t axis = 0;  ///< 0..2, of the reference gyro, not turned into the MEMS sensor's axes
+  double noise_scale = 1.0;
+  double rate_hz = 120.0;  ///< of the drive; the noise was recorded at 100 Hz and is taken sample by sample
+  std::vector<double> truth_dps;  ///< NaN where the reference was lost
+  std::vector<double>
+      noisy_dps;  ///< finite: the truth, lost stretches bridged by straight lines, plus the noise
+  std::vector<double> still_dps;  ///< another stretch of the same noise at the same scale, its mean removed
+};
+
+inline std::filesystem::path data_folder() {
+  if (const char* data = std::getenv("GYROD_DATA")) return data;
+  const char* source = std::getenv("GYROD_SOURCE_DIR");
+  return std::filesystem::path(source != nullptr ? source : ".") / "../shared/data";
+}
+
+/// Which still recording is the noise, and where it starts.
+struct NoiseChoice {
+  std::string file = "adis16405_imu1_static_100hz.csv.gz";
+  std::size_t axis = 0;
+  std::size_t start = 0;
+  std::size_t still_start = 500'000;  ///< far from the noise that is added
+  std::size_t still_samples = 100'000;
+};
+
+inline bool has_drive_rows(const NoiseChoice& noise = {}) {
+  const auto there = [](const std::string& name) { return std::filesystem::exists(data_folder() / name); };
+  return there("wid_car_trial06_xsensdot_120hz.csv.gz") && there("wid_car_trial09_xsensdot_120hz.csv.gz") &&
+         there(noise.file);
+}
+
+/// NaN between two numbers becomes a straight line; NaN at an end the nearest number.
+inline std::vector<double> bridged(std::vector<double> values) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::size_t last = kNone;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    if (!std::isfinite(values[n])) continue;
+    const std::size_t first_lost = last == kNone ? 0 : last + 1;
+    const double left = last == kNone ? values[n] : values[last];
+    for (std::size_t lost = first_lost; lost < n; ++lost) {
+      values[lost] = core::bridge(left, values[n], lost - first_lost, n - first_lost);
+    }
+    last = n;
+  }
+  for (std::size_t n = last + 1; last != kNone && n < values.size(); ++n) values[n] = values[last];
+  return values;
+}
+
+/// The deviation of a stretch from its own mean, times `scale`.
+inline std::vector<double> noise_of(std::span<const double> stretch, double scale) {
+  double mean = 0.0;
+  for (const double value : stretch) mean += value / static_cast<double>(stretch.size());
+  std::vector<double> noise(stretch.begin(), stretch.end());
+  for (double& value : noise) value = scale * (value - mean);
+  return noise;
+}
+
+namespace detail {
+
+inline files::Record load(const std::string& name, double rate_hz) {
+  files::RecordOptions options;
+  options.sample_rate_hz = rate_hz;
+  options.other_columns = true;
+  return files::load_record((data_folder() / name).string(), options);
+}
+
+inline std::string row_name(const std::string& drive, std::size_t axis, double scale) {
+  const std::string name = drive + " " + "xyz"[axis];
+  if (scale == 1.0) return name;
+  return name + (scale < 1.0 ? " at 0.3" : " at 3");
+}
+
+}  // namespace detail
+
+/// The 18 rows of two drives, three axes and noise scaled by 1, 0.3 and 3, in this order. All rows have the same noise.
+/// @pre has_drive_rows(noise)
+inline std::vector<DriveRow> drive_rows(const NoiseChoice& noise = {}) {
+  constexpr double kRateHz = 120.0;
+  std::vector<double> still = detail::load(noise.file, kRateHz).gyro_radps[noise.axis];
+  for (double& value : still) value *= 180.0 / std::numbers::pi;
+  std::vector<DriveRow> rows;
+  for (const double scale : {1.0, 0.3, 3.0}) {
+    for (const std::string drive : {"06", "09"}) {
+      const files::Record record = detail::load("wid_car_trial" + drive + "_xsensdot_120hz.csv.gz", kRateHz);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        DriveRow row;
+        row.name = detail::row_name(drive, axis, scale);
+        row.drive = drive;
+        row.axis = axis;
+        row.noise_scale = scale;
+        row.rate_hz = kRateHz;
+        row.truth_dps = record.others.at(std::string("ref_gyro_") + "xyz"[axis] + "_dps");
+        row.noisy_dps = bridged(row.truth_dps);
+        const auto added = noise_of(std::span(still).subspan(noise.start, row.noisy_dps.size()), scale);
+        for (std::size_t n = 0; n < added.size(); ++n) row.noisy_dps[n] += added[n];
+        row.still_dps = noise_of(std::span(still).subspan(noise.still_start, noise.still_samples), scale);
+        rows.push_back(std::move(row));
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace gyrod::test
