@@ -1,0 +1,160 @@
+#include "core/evaluation/guards.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/evaluation/joints.hpp"
+
+namespace gyrod::core {
+namespace {
+
+constexpr double kSwingDps = 5.0;
+constexpr double kVibrationDps = 1.0;
+constexpr double kVibrationHz = 27.0;
+
+constexpr std::array<std::string_view, 9> kNames = {"mean-preserved",   "slow-turn-gain",  "swing-gain",
+                                                    "scale-factor",     "joint-roughness", "joint-outliers",
+                                                    "joint-worst-step", "delay",           "vibration-gain"};
+
+Guard not_applicable(GuardKind kind, double limit, std::string reason) {
+  return {kind, Verdict::kNotApplicable, std::nullopt, std::nullopt, limit, std::move(reason)};
+}
+
+Verdict verdict(bool pass) noexcept { return pass ? Verdict::kPass : Verdict::kFail; }
+
+/// a - b over the range, as long as that.
+std::vector<double> difference(std::span<const double> a, std::span<const double> b, SampleRange range) {
+  const std::size_t end = std::min({range.end, a.size(), b.size()});
+  std::vector<double> result;
+  for (std::size_t t = range.begin; t < end; ++t) result.push_back(a[t] - b[t]);
+  return result;
+}
+
+std::size_t second_of(const GuardCase& on) noexcept {
+  return static_cast<std::size_t>(std::max(1LL, std::llround(on.rate_hz)));
+}
+
+Guard mean_preserved(const Contender& plain, const GuardCase& on, double limit) {
+  const auto moved = batch_mean(difference(plain.estimate, on.noisy_dps, on.range), second_of(on));
+  const auto noise = batch_mean(difference(on.noisy_dps, on.truth_dps, on.range), second_of(on));
+  if (!moved || !noise) return not_applicable(GuardKind::kMeanPreserved, limit, "less than 2 s are known");
+  if (noise->standard_error <= 0.0)
+    return not_applicable(GuardKind::kMeanPreserved, limit, "the record has no noise");
+  const double value = std::abs(moved->value) / noise->standard_error;
+  return {GuardKind::kMeanPreserved, verdict(value <= limit), value, std::nullopt, limit, ""};
+}
+
+struct GainTest {
+  GuardKind kind;
+  double frequency_hz;
+  double amplitude_dps;
+  double limit;
+};
+
+Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& on, const GainTest& test) {
+  const auto response = added_swing(method, plain, on, test.frequency_hz, test.amplitude_dps);
+  if (!response)
+    return not_applicable(test.kind, test.limit, "the judged samples hold no whole period of it");
+  const bool pass = std::abs(response->gain - 1.0) <= test.limit;
+  return {test.kind, verdict(pass), response->gain, response->standard_error, test.limit, ""};
+}
+
+/// Means over one second each; NaN where a sample is not known.
+std::vector<double> second_means(std::span<const double> x, std::size_t second) {
+  std::vector<double> means;
+  for (std::size_t begin = 0; begin + second <= x.size(); begin += second) {
+    double sum = 0.0;
+    for (const double value : x.subspan(begin, second)) sum += value;
+    means.push_back(sum / static_cast<double>(second));
+  }
+  return means;
+}
+
+/// What the estimator took away is regressed on the truth: slow noise, which it leaves, is then no part of the uncertainty.
+Guard scale_factor(const Contender& plain, const GuardCase& on, double limit) {
+  const std::size_t end = std::min(on.range.end, on.truth_dps.size());
+  const auto truth = second_means(on.truth_dps.subspan(on.range.begin, end - on.range.begin), second_of(on));
+  const auto taken = second_means(difference(plain.estimate, on.noisy_dps, on.range), second_of(on));
+  const auto slope = batch_slope(truth, taken, 10);
+  if (!slope) return not_applicable(GuardKind::kScaleFactor, limit, "less than 20 s of motion are known");
+  const double gain = 1.0 + slope->value;
+  if (2.0 * slope->standard_error > limit) {
+    Guard guard = not_applicable(GuardKind::kScaleFactor, limit, "too little slow motion to tell");
+    guard.value = gain;
+    guard.standard_error = slope->standard_error;
+    return guard;
+  }
+  const bool pass = std::abs(slope->value) <= limit;
+  return {GuardKind::kScaleFactor, verdict(pass), gain, slope->standard_error, limit, ""};
+}
+
+void joint_guards(const Contender& plain, const GuardCase& on, const GuardLimits& limits,
+                  std::vector<Guard>& all) {
+  const auto figures = joint_figures(plain, on.range);
+  if (!figures) {
+    const std::string reason = plain.joints ? "too few joints among the judged samples" : "it has no joints";
+    all.push_back(not_applicable(GuardKind::kJointRoughness, limits.roughness, reason));
+    all.push_back(not_applicable(GuardKind::kJointOutliers, 0.05, reason));
+    all.push_back(not_applicable(GuardKind::kJointWorstStep, limits.worst_step, reason));
+    return;
+  }
+  const double share_limit = 0.05 + 3.0 * figures->outlier_standard_error;
+  const double step_limit = std::max(limits.worst_step, figures->worst_step_elsewhere);
+  all.push_back({GuardKind::kJointRoughness, verdict(figures->roughness <= limits.roughness),
+                 figures->roughness, std::nullopt, limits.roughness, ""});
+  all.push_back({GuardKind::kJointOutliers, verdict(figures->outlier_share <= share_limit),
+                 figures->outlier_share, figures->outlier_standard_error, share_limit, ""});
+  all.push_back({GuardKind::kJointWorstStep, verdict(figures->worst_step <= step_limit), figures->worst_step,
+                 std::nullopt, step_limit, ""});
+}
+
+Guard delay_guard(const Contender& plain, const GuardCase& on, double limit) {
+  constexpr std::size_t kFarthest = 64;
+  const auto peak = correlation_peak(on.truth_dps, plain.estimate, on.range, kFarthest);
+  if (!peak) return not_applicable(GuardKind::kDelay, limit, "its correlation with the truth has no peak");
+  Guard guard{GuardKind::kDelay, verdict(std::abs(*peak) <= limit), *peak, std::nullopt, limit, ""};
+  if (plain.lag_samples == 0) {
+    guard.verdict = Verdict::kNotApplicable;
+    guard.reason = "answers at once: this is its measured delay";
+  }
+  return guard;
+}
+
+}  // namespace
+
+std::string_view name_of(GuardKind kind) noexcept { return kNames[static_cast<std::size_t>(kind)]; }
+
+std::optional<SwingResponse> added_swing(const Method& method, const Contender& plain, const GuardCase& on,
+                                         double frequency_hz, double amplitude_dps) {
+  const double frequency = frequency_hz / on.rate_hz;
+  if (frequency >= 0.5) return std::nullopt;
+  std::vector<double> swung(on.noisy_dps.begin(), on.noisy_dps.end());
+  for (std::size_t t = 0; t < swung.size(); ++t) {
+    swung[t] += amplitude_dps * std::sin(2.0 * std::numbers::pi * frequency * static_cast<double>(t));
+  }
+  std::vector<double> change = method.run(swung).estimate;
+  assert(change.size() == plain.estimate.size());
+  for (std::size_t t = 0; t < change.size(); ++t) change[t] -= plain.estimate[t];
+  return swing_response(change, on.range, frequency, amplitude_dps);
+}
+
+std::vector<Guard> guards(const Method& method, const Contender& plain, const GuardCase& on,
+                          const GuardLimits& limits) {
+  const double vibration_hz = std::min(kVibrationHz, on.rate_hz / 4.0);
+  std::vector<Guard> all;
+  all.push_back(mean_preserved(plain, on, limits.mean_standard_errors));
+  all.push_back(gain_guard(method, plain, on, {GuardKind::kSlowTurnGain, 0.1, kSwingDps, limits.slow_turn}));
+  all.push_back(gain_guard(method, plain, on, {GuardKind::kSwingGain, 1.0, kSwingDps, limits.swing}));
+  all.push_back(scale_factor(plain, on, limits.scale_factor));
+  joint_guards(plain, on, limits, all);
+  all.push_back(delay_guard(plain, on, limits.delay_samples));
+  all.push_back(gain_guard(method, plain, on,
+                           {GuardKind::kVibrationGain, vibration_hz, kVibrationDps, limits.vibration}));
+  return all;
+}
+
+}  // namespace gyrod::core

@@ -1,0 +1,25 @@
+/// Whether one sees where an estimate was put together from pieces.
+#pragma once
+
+#include <optional>
+
+#include "core/evaluation/contender.hpp"
+
+namespace gyrod::core {
+
+/// A second difference e[t-1] - 2 e[t] + e[t+1] is at a joint if the joint lies between two of its samples; a step e[t] - e[t-1], if t is
+/// the first sample of a piece.
+struct JointFigures {
+  double roughness = 0.0;  ///< rms of the second differences at joints / rms of those elsewhere
+  double outlier_share =
+      0.0;  ///< of the second differences at joints beyond the 95 % quantile of |those elsewhere|
+  double outlier_standard_error =
+      0.0;                  ///< of that share where joints are like the rest: sqrt(0.05 0.95 / joints)
+  double worst_step = 0.0;  ///< greatest |step| at a joint / standard deviation of the steps elsewhere
+  double worst_step_elsewhere = 0.0;
+};
+
+/// @return nothing for a contender without joints, for less than ten of them in the range, and where nothing moves elsewhere
+[[nodiscard]] std::optional<JointFigures> joint_figures(const Contender& contender, SampleRange range);
+
+}  // namespace gyrod::core

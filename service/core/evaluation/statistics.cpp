@@ -1,0 +1,162 @@
+#include "core/evaluation/statistics.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace gyrod::core {
+namespace {
+
+/// Sums of a term over batches; batches without a finite term do not count.
+template <class Term>
+struct BatchSums {
+  double squares = 0.0;  ///< of the batches' sums
+  std::size_t batches = 0;
+
+  BatchSums(std::size_t size, std::size_t batch, const Term& term) {
+    for (std::size_t begin = 0; begin < size; begin += batch) {
+      double sum = 0.0;
+      bool known = false;
+      for (std::size_t t = begin; t < std::min(size, begin + batch); ++t) {
+        const double value = term(t);
+        if (!std::isfinite(value)) continue;
+        sum += value;
+        known = true;
+      }
+      if (!known) continue;
+      squares += sum * sum;
+      ++batches;
+    }
+  }
+};
+
+struct Means {
+  double x = 0.0;
+  double y = 0.0;
+  double count = 0.0;
+};
+
+/// Over what is finite in both.
+Means means_of(std::span<const double> x, std::span<const double> y) noexcept {
+  Means means;
+  for (std::size_t t = 0; t < x.size(); ++t) {
+    if (!std::isfinite(x[t]) || !std::isfinite(y[t])) continue;
+    means.x += x[t];
+    means.y += y[t];
+    means.count += 1.0;
+  }
+  if (means.count > 0.0) {
+    means.x /= means.count;
+    means.y /= means.count;
+  }
+  return means;
+}
+
+/// sum (x - mean x)(y - mean y) over what is finite in both.
+double product_sum(std::span<const double> x, std::span<const double> y, const Means& means) noexcept {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < x.size(); ++t) {
+    const double term = (x[t] - means.x) * (y[t] - means.y);
+    if (std::isfinite(term)) sum += term;
+  }
+  return sum;
+}
+
+double correlation(std::span<const double> x, std::span<const double> y) noexcept {
+  const Means means = means_of(x, y);
+  double xx = 0.0;
+  double yy = 0.0;
+  double xy = 0.0;
+  for (std::size_t t = 0; t < x.size(); ++t) {
+    if (!std::isfinite(x[t]) || !std::isfinite(y[t])) continue;
+    const double u = x[t] - means.x;
+    const double v = y[t] - means.y;
+    xx += u * u;
+    yy += v * v;
+    xy += u * v;
+  }
+  return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::optional<Measured> batch_mean(std::span<const double> x, std::size_t batch) {
+  assert(batch >= 1);
+  const Means means = means_of(x, x);
+  const BatchSums sums(x.size(), batch, [&](std::size_t t) { return x[t] - means.x; });
+  if (sums.batches < 2) return std::nullopt;
+  return Measured{means.x, std::sqrt(sums.squares) / means.count};
+}
+
+std::optional<Measured> batch_slope(std::span<const double> x, std::span<const double> y, std::size_t batch) {
+  assert(batch >= 1 && x.size() == y.size());
+  const Means means = means_of(x, y);
+  // x counts only where y is known, too.
+  std::vector<double> known(x.begin(), x.end());
+  for (std::size_t t = 0; t < known.size(); ++t) {
+    if (!std::isfinite(y[t])) known[t] = std::numeric_limits<double>::quiet_NaN();
+  }
+  const double xx = product_sum(known, known, {means.x, means.x, means.count});
+  if (!(xx > 0.0)) return std::nullopt;
+  const double slope = product_sum(known, y, means) / xx;
+  const BatchSums sums(x.size(), batch, [&](std::size_t t) {
+    const double u = x[t] - means.x;
+    return u * (y[t] - means.y - slope * u);
+  });
+  if (sums.batches < 2) return std::nullopt;
+  return Measured{slope, std::sqrt(sums.squares) / xx};
+}
+
+std::optional<SwingResponse> swing_response(std::span<const double> change, SampleRange range,
+                                            double frequency, double amplitude) {
+  assert(amplitude > 0.0 && frequency > 0.0 && frequency < 0.5);
+  const double turn = 2.0 * std::numbers::pi * frequency;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t t = range.begin; t < std::min(range.end, change.size()); ++t) {
+    if (!std::isfinite(change[t])) continue;
+    const double phase = turn * static_cast<double>(t);
+    const Eigen::Vector3d basis(std::sin(phase), std::cos(phase), 1.0);
+    normal += basis * basis.transpose();
+    right += change[t] * basis;
+    squares += change[t] * change[t];
+    count += 1.0;
+  }
+  if (count * frequency < 1.0 || count < 4.0) return std::nullopt;
+  const Eigen::Vector3d fit = normal.ldlt().solve(right);
+  const double left = std::max(0.0, squares - fit.dot(right)) / (count - 3.0);
+  SwingResponse response;
+  response.gain = std::hypot(fit[0], fit[1]) / amplitude;
+  response.standard_error = std::sqrt(2.0 * left / count) / amplitude;
+  response.delay_samples = std::atan2(-fit[1], fit[0]) / turn;
+  return response;
+}
+
+std::optional<double> correlation_peak(std::span<const double> truth, std::span<const double> estimate,
+                                       SampleRange range, std::size_t max_lag) {
+  const std::size_t size = std::min(truth.size(), estimate.size());
+  const std::size_t begin = std::max(range.begin, max_lag);
+  const std::size_t end = std::min(range.end, size > max_lag ? size - max_lag : 0);
+  if (begin + 2 > end || max_lag < 1) return std::nullopt;
+  std::vector<double> at(2 * max_lag + 1);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    at[i] =
+        correlation(truth.subspan(begin, end - begin), estimate.subspan(begin + i - max_lag, end - begin));
+    if (!std::isfinite(at[i])) return std::nullopt;
+  }
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(at) - at.begin());
+  if (best == 0 || best + 1 == at.size()) return std::nullopt;
+  const double bend = at[best - 1] - 2.0 * at[best] + at[best + 1];
+  const double shift = bend < 0.0 ? 0.5 * (at[best - 1] - at[best + 1]) / bend : 0.0;
+  return static_cast<double>(best) - static_cast<double>(max_lag) + shift;
+}
+
+}  // namespace gyrod::core

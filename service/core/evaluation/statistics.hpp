@@ -1,0 +1,50 @@
+/// Means, slopes and delays with their uncertainty, for errors that have a memory.
+///
+/// Standard errors come from sums over batches, which are taken for independent: right for any memory that is short against a batch.
+/// Samples that are not finite in one of the series are left out. Functions are pure; they allocate their batches only.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/evaluation/contender.hpp"
+
+namespace gyrod::core {
+
+/// A value and how well it is known.
+struct Measured {
+  double value = 0.0;
+  double standard_error = 0.0;
+};
+
+/// Mean of a series; standard error from the batch sums B_b = sum_(t in b) (x[t] - mean):  sqrt(sum_b B_b^2) / N.
+/// @param batch samples, at least 1  @return nothing for less than two batches with known samples
+[[nodiscard]] std::optional<Measured> batch_mean(std::span<const double> x, std::size_t batch);
+
+/// Slope of the least-squares line y = c + slope x; standard error from the batches' sums of (x - mean x)(y - line):
+///   sqrt(sum_b (sum_(t in b) u e)^2) / sum u^2.   Source: cluster-robust variance, Liang, Zeger 1986, Biometrika 73(1).
+/// @return nothing where x is constant or less than two batches are known  @pre x.size() == y.size()
+[[nodiscard]] std::optional<Measured> batch_slope(std::span<const double> x, std::span<const double> y,
+                                                  std::size_t batch);
+
+/// What became of a swing A sin(2 pi f t) that was added to an input: least squares of the output's change on sine, cosine and 1.
+struct SwingResponse {
+  double gain = 0.0;            ///< amplitude out / amplitude in
+  double standard_error = 0.0;  ///< of the gain, as if what the fit leaves were white
+  double delay_samples = 0.0;   ///< above 0: late; within half a period
+};
+/// @param frequency in cycles per sample  @param range of the record in which both are compared
+/// @return nothing where less than one period is known  @pre amplitude > 0, 0 < frequency < 0.5
+[[nodiscard]] std::optional<SwingResponse> swing_response(std::span<const double> change, SampleRange range,
+                                                          double frequency, double amplitude);
+
+/// The shift of `estimate` against `truth` at which their correlation coefficient is greatest, in samples, above 0 where the estimate is
+/// late; between samples by the parabola through the greatest and its neighbours.
+/// @param range of the truth  @param max_lag largest shift that is tried, either way
+/// @return nothing where there is no peak inside: a constant, or a correlation that grows to the last shift
+[[nodiscard]] std::optional<double> correlation_peak(std::span<const double> truth,
+                                                     std::span<const double> estimate, SampleRange range,
+                                                     std::size_t max_lag);
+
+}  // namespace gyrod::core

@@ -1,0 +1,149 @@
+#include "core/evaluation/guards.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "core/evaluation/rivals.hpp"
+#include "core/evaluation/statistics.hpp"
+#include "evaluation_support.hpp"
+
+namespace gyrod::core {
+namespace {
+
+using Change = std::function<void(std::vector<double>&)>;
+
+/// A drive that turns slowly, with white noise: 3 min at 100 Hz.
+struct Drive {
+  std::vector<double> truth = test::sum_of(test::tone(18'000, 0.0013, 8.0), test::tone(18'000, 0.0101, 2.0));
+  std::vector<double> noisy = test::sum_of(truth, test::white_noise(18'000, 0.3, 1));
+
+  [[nodiscard]] GuardCase guard_case() const { return {noisy, truth, {500, 17'500}, 100.0}; }
+};
+
+/// Zero-phase low-pass at 40 Hz, which keeps everything that guards ask for, and then a defect.
+Method method_with(const Change& defect, std::size_t lag = 16) {
+  const auto run = [defect, lag](std::span<const double> noisy) {
+    Contender contender;
+    contender.name = "test";
+    contender.lag_samples = lag;
+    contender.estimate = rival_estimate({Rival::kZeroPhase2, 0.45}, noisy);
+    contender.joints = JointPattern{32, 16};
+    defect(contender.estimate);
+    return contender;
+  };
+  return {"test", lag, run};
+}
+
+Guard guard_of(GuardKind kind, const Change& defect, std::size_t lag = 16) {
+  const Drive drive;
+  const Method method = method_with(defect, lag);
+  const auto all = guards(method, method.run(drive.noisy), drive.guard_case());
+  return *std::ranges::find(all, kind, &Guard::kind);
+}
+
+void none(std::vector<double>&) {}
+
+TEST(Guards, PassAnEstimatorWithoutDefect) {
+  const Drive drive;
+  const Method method = method_with(none);
+  const auto all = guards(method, method.run(drive.noisy), drive.guard_case());
+  ASSERT_EQ(all.size(), 9U);
+  for (const Guard& guard : all) {
+    EXPECT_EQ(guard.verdict, Verdict::kPass) << name_of(guard.kind) << ' ' << guard.value.value_or(-1.0);
+  }
+}
+
+TEST(Guards, FailOneThatShrinksByThreePercent) {
+  const Change shrink = [](std::vector<double>& x) {
+    for (double& value : x) value *= 0.97;
+  };
+  for (const GuardKind kind : {GuardKind::kSlowTurnGain, GuardKind::kSwingGain, GuardKind::kScaleFactor}) {
+    const Guard guard = guard_of(kind, shrink);
+    EXPECT_EQ(guard.verdict, Verdict::kFail) << name_of(kind);
+    EXPECT_NEAR(*guard.value, 0.97, 0.003) << name_of(kind);
+  }
+}
+
+TEST(Guards, FailOneThatIsLateByASample) {
+  const Change shift = [](std::vector<double>& x) { std::rotate(x.rbegin(), x.rbegin() + 1, x.rend()); };
+  const Guard guard = guard_of(GuardKind::kDelay, shift);
+  EXPECT_EQ(guard.verdict, Verdict::kFail);
+  EXPECT_NEAR(*guard.value, 1.0, 0.1);
+  EXPECT_EQ(guard_of(GuardKind::kDelay, none).verdict, Verdict::kPass);
+}
+
+TEST(Guards, OnlyStateTheDelayOfOneThatAnswersAtOnce) {
+  const Guard guard = guard_of(GuardKind::kDelay, none, 0);
+  EXPECT_EQ(guard.verdict, Verdict::kNotApplicable);
+  EXPECT_NEAR(*guard.value, 0.0, 0.1);
+}
+
+TEST(Guards, FailOneThatMovesTheMean) {
+  const Change move = [](std::vector<double>& x) {
+    for (double& value : x) value += 0.02;
+  };
+  // Standard error of the mean: 0.3 / sqrt(17 000) = 0.0023.
+  const Guard guard = guard_of(GuardKind::kMeanPreserved, move);
+  EXPECT_EQ(guard.verdict, Verdict::kFail);
+  EXPECT_NEAR(*guard.value, 0.02 / 0.0023, 2.0);
+}
+
+TEST(Guards, FailOneWithStepsAtItsJoints) {
+  const Change steps = [](std::vector<double>& x) {
+    for (std::size_t t = 0; t < x.size(); ++t) x[t] += (t + 16) / 32 % 2 == 0 ? 1.0 : -1.0;
+  };
+  EXPECT_EQ(guard_of(GuardKind::kJointRoughness, steps).verdict, Verdict::kFail);
+  EXPECT_EQ(guard_of(GuardKind::kJointOutliers, steps).verdict, Verdict::kFail);
+  EXPECT_EQ(guard_of(GuardKind::kJointWorstStep, steps).verdict, Verdict::kFail);
+}
+
+TEST(Guards, FailOneWithASingleLargeStepAtAJoint) {
+  const Change step = [](std::vector<double>& x) {
+    for (std::size_t t = 32 * 200 + 16; t < x.size(); ++t) x[t] += 5.0;
+  };
+  EXPECT_EQ(guard_of(GuardKind::kJointWorstStep, step).verdict, Verdict::kFail);
+}
+
+TEST(Guards, FailOneThatLosesVibration) {
+  const Change smooth = [](std::vector<double>& x) { x = rival_estimate({Rival::kZeroPhase1, 0.25}, x); };
+  const Guard guard = guard_of(GuardKind::kVibrationGain, smooth);
+  EXPECT_EQ(guard.verdict, Verdict::kFail);
+  EXPECT_NEAR(*guard.value, 0.5, 0.05);  // fs/4 is the cut-off of both passes, and 0.45 takes a little
+}
+
+TEST(Guards, SayWhyTheyDoNotApply) {
+  const Drive drive;
+  Method method = method_with(none);
+  Contender plain = method.run(drive.noisy);
+  plain.joints.reset();
+  GuardCase on = drive.guard_case();
+  on.range = {500, 900};  // 4 s
+  for (const Guard& guard : guards(method, plain, on)) {
+    if (guard.verdict == Verdict::kNotApplicable) {
+      EXPECT_FALSE(guard.reason.empty());
+    }
+    const bool long_one = guard.kind == GuardKind::kSlowTurnGain || guard.kind == GuardKind::kScaleFactor ||
+                          guard.kind == GuardKind::kJointRoughness;
+    if (long_one) {
+      EXPECT_EQ(guard.verdict, Verdict::kNotApplicable) << name_of(guard.kind);
+    }
+  }
+}
+
+// First-order low-pass, exponential average with share a: group delay at low frequency (1 - a)/a samples.
+TEST(Guards, AddedSwingMeasuresTheGroupDelayOfAFilter) {
+  const Drive drive;
+  const Method method{"exponential", 0, [](std::span<const double> noisy) {
+                        Contender contender;
+                        contender.estimate = rival_estimate({Rival::kExponential, 0.25}, noisy);
+                        return contender;
+                      }};
+  const auto response = added_swing(method, method.run(drive.noisy), drive.guard_case(), 0.1, 5.0);
+  EXPECT_NEAR(response->delay_samples, 3.0, 0.01);
+}
+
+}  // namespace
+}  // namespace gyrod::core

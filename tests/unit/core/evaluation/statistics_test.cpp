@@ -1,0 +1,109 @@
+#include "core/evaluation/statistics.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "evaluation_support.hpp"
+
+namespace gyrod::core {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// White noise: standard error sigma / sqrt(N). From 400 batches it is known to 1/sqrt(800) = 3.5 %; three of these.
+TEST(Statistics, MeanOfWhiteNoiseHasTheErrorOfTheTextbook) {
+  const auto x = test::white_noise(40'000, 2.0, 1);
+  const auto mean = batch_mean(x, 100);
+  ASSERT_TRUE(mean);
+  EXPECT_NEAR(mean->standard_error, 2.0 / 200.0, 0.105 * 2.0 / 200.0);
+  EXPECT_LT(std::abs(mean->value), 4.0 * mean->standard_error);
+}
+
+// An AR(1) process with pole a: sigma / sqrt(N) (1 + a)/(1 - a))^(1/2), here 4.36 times that of white noise.
+TEST(Statistics, MeanOfNoiseWithMemoryIsKnownLessWell) {
+  auto x = test::white_noise(200'000, 1.0, 2);
+  for (std::size_t t = 1; t < x.size(); ++t) x[t] += 0.9 * x[t - 1];
+  const double expected = 10.0 / std::sqrt(200'000.0);  // 1 / (1 - a) per sqrt(N)
+  EXPECT_NEAR(batch_mean(x, 500)->standard_error, expected,
+              0.15 * expected);  // 400 batches, as above, and 2 % of bias
+}
+
+TEST(Statistics, LeavesOutWhatIsNotKnown) {
+  const std::vector<double> x = {1.0, kNaN, 3.0, kNaN, kNaN, kNaN, 5.0, 7.0};
+  EXPECT_DOUBLE_EQ(batch_mean(x, 2)->value, 4.0);
+  EXPECT_FALSE(batch_mean(std::vector<double>{1.0, kNaN, kNaN}, 2));
+}
+
+TEST(Statistics, SlopeFindsAGainAndAnOffset) {
+  const auto x = test::random_walk(5000, 1.0, 3);
+  std::vector<double> y(x.size());
+  for (std::size_t t = 0; t < x.size(); ++t) y[t] = 0.97 * x[t] - 4.0;
+  y[17] = kNaN;
+  const auto slope = batch_slope(x, y, 100);
+  ASSERT_TRUE(slope);
+  EXPECT_NEAR(slope->value, 0.97, 1e-12);
+  EXPECT_LT(slope->standard_error, 1e-12);
+}
+
+// White x and noise: standard error sigma / sqrt(sum (x - mean)^2).
+TEST(Statistics, SlopeInWhiteNoiseHasTheErrorOfTheTextbook) {
+  const auto x = test::white_noise(40'000, 3.0, 4);
+  const auto y = test::sum_of(x, test::white_noise(40'000, 1.5, 5));
+  const double expected = 1.5 / (3.0 * 200.0);
+  const auto slope = batch_slope(x, y, 100);
+  EXPECT_NEAR(slope->standard_error, expected, 0.105 * expected);  // 400 batches
+  EXPECT_NEAR(slope->value, 1.0, 4.0 * expected);
+}
+
+TEST(Statistics, NoSlopeOnAConstant) {
+  EXPECT_FALSE(batch_slope(std::vector<double>(100, 2.0), test::white_noise(100, 1.0, 6), 10));
+}
+
+TEST(Statistics, SwingResponseFindsGainAndDelay) {
+  std::vector<double> change(3000);
+  for (std::size_t t = 0; t < change.size(); ++t) {
+    change[t] = 0.2 + 0.9 * 5.0 * std::sin(2.0 * std::numbers::pi * 0.01 * (static_cast<double>(t) - 7.25));
+  }
+  change[100] = kNaN;
+  const auto response = swing_response(change, {50, 2973}, 0.01, 5.0);
+  ASSERT_TRUE(response);
+  EXPECT_NEAR(response->gain, 0.9, 1e-9);
+  EXPECT_NEAR(response->delay_samples, 7.25, 1e-6);
+  EXPECT_LT(response->standard_error, 1e-6);
+}
+
+TEST(Statistics, NoSwingResponseFromLessThanAPeriod) {
+  EXPECT_FALSE(swing_response(std::vector<double>(99, 1.0), {0, 99}, 0.01, 5.0));
+}
+
+TEST(Statistics, CorrelationPeaksWhereASeriesWasShifted) {
+  const auto truth = test::random_walk(4000, 1.0, 7);
+  std::vector<double> late(truth.size(), 0.0);
+  for (std::size_t t = 3; t < late.size(); ++t) late[t] = 2.0 + 0.5 * truth[t - 3];
+  EXPECT_NEAR(*correlation_peak(truth, late, {100, 3900}, 20), 3.0, 0.01);
+  EXPECT_NEAR(*correlation_peak(late, truth, {100, 3900}, 20), -3.0, 0.01);
+}
+
+// A tone of period 200: the parabola through three samples of a cosine is off by less than 1e-4 of a sample.
+TEST(Statistics, CorrelationPeakIsFoundBetweenSamples) {
+  const auto truth = test::tone(4000, 0.005);
+  std::vector<double> late(truth.size());
+  for (std::size_t t = 0; t < late.size(); ++t) {
+    late[t] = std::sin(2.0 * std::numbers::pi * 0.005 * (static_cast<double>(t) - 1.4));
+  }
+  EXPECT_NEAR(*correlation_peak(truth, late, {200, 3800}, 20), 1.4, 1e-3);
+}
+
+TEST(Statistics, NoPeakForAConstantOrBeyondTheLastShift) {
+  const auto truth = test::tone(4000, 0.005);
+  EXPECT_FALSE(correlation_peak(truth, std::vector<double>(4000, 1.0), {200, 3800}, 20));
+  std::vector<double> late(truth.size(), 0.0);
+  for (std::size_t t = 30; t < late.size(); ++t) late[t] = truth[t - 30];
+  EXPECT_FALSE(correlation_peak(truth, late, {200, 3800}, 20));
+}
+
+}  // namespace
+}  // namespace gyrod::core
