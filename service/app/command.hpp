@@ -25,5 +25,6 @@ void add_report(CLI::App& parser, Action& chosen);
 void add_allan(CLI::App& parser, Action& chosen);
 void add_navigate(CLI::App& parser, Action& chosen);
 void add_calibrate(CLI::App& parser, Action& chosen);
+void add_evaluate(CLI::App& parser, Action& chosen);
 
 }  // namespace gyrod::app

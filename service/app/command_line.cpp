@@ -29,7 +29,7 @@ int parse_and_act(int argc, const char* const* argv) {
   parser.footer(std::string("gyrod SUBCOMMAND --help explains one, with examples.\n") + kExitCodesHelp);
   Action chosen;
   for (const auto add : {add_run, add_validate, add_denoise, add_decompose, add_allan, add_calibrate,
-                         add_navigate, add_report, add_replay, add_record, add_simulate})
+                         add_navigate, add_report, add_evaluate, add_replay, add_record, add_simulate})
     add(parser, chosen);
   try {
     parser.parse(argc, argv);

@@ -10,8 +10,15 @@ namespace gyrod::report {
 namespace {
 
 constexpr std::array<std::string_view, 3> kStyles = {"uplot.css", "page.css", "report.css"};
-constexpr std::array<std::string_view, 4> kScripts = {"uplot.js", "charts.js", "report_figures.js",
-                                                      "report.js"};
+
+/// What a page is made of besides the styles, which all share.
+struct Parts {
+  std::string_view page;
+  std::array<std::string_view, 4> scripts;
+};
+constexpr Parts kReport = {"report.html", {"uplot.js", "charts.js", "report_figures.js", "report.js"}};
+constexpr Parts kEvaluation = {"evaluation.html",
+                               {"uplot.js", "charts.js", "report_figures.js", "evaluation.js"}};
 
 std::string elements(std::span<const std::string_view> names, std::string_view tag) {
   std::string text;
@@ -27,20 +34,34 @@ std::string sources(std::span<const std::string_view> names) {
   return text;
 }
 
-std::string policy() {
-  return "default-src 'none'; base-uri 'none'; form-action 'none'; script-src" + sources(kScripts) +
+std::string policy(const Parts& parts) {
+  return "default-src 'none'; base-uri 'none'; form-action 'none'; script-src" + sources(parts.scripts) +
          "; style-src" + sources(kStyles);
 }
 
 /// What stands for @NAME@ in the template.
-std::string value_of(std::string_view name, const std::string& title, const Json& data) {
-  if (name == "POLICY") return policy();
+std::string value_of(std::string_view name, const Parts& parts, const std::string& title, const Json& data) {
+  if (name == "POLICY") return policy(parts);
   if (name == "TITLE") return escape_html(title);
   if (name == "STYLES") return elements(kStyles, "style");
-  if (name == "SCRIPTS") return elements(kScripts, "script");
+  if (name == "SCRIPTS") return elements(parts.scripts, "script");
   if (name == "UPLOT_LICENSE") return escape_html(web::asset("uplot.license"));
   if (name == "DATA") return script_text(data);
   return "@" + std::string(name) + "@";
+}
+
+std::string filled(const Parts& parts, const std::string& title, const Json& data) {
+  // One walk over the template: what is put in is never searched again.
+  std::string_view rest = web::asset(parts.page);
+  std::string page;
+  while (true) {
+    const auto begin = rest.find('@');
+    const auto end = begin == std::string_view::npos ? begin : rest.find('@', begin + 1);
+    if (end == std::string_view::npos) return page.append(rest);
+    page.append(rest.substr(0, begin));
+    page.append(value_of(rest.substr(begin + 1, end - begin - 1), parts, title, data));
+    rest.remove_prefix(end + 1);
+  }
 }
 
 }  // namespace
@@ -71,18 +92,10 @@ std::string escape_html(std::string_view text) {
   return safe;
 }
 
-std::string report_page(const std::string& title, const Json& data) {
-  // One walk over the template: what is put in is never searched again.
-  std::string_view rest = web::asset("report.html");
-  std::string page;
-  while (true) {
-    const auto begin = rest.find('@');
-    const auto end = begin == std::string_view::npos ? begin : rest.find('@', begin + 1);
-    if (end == std::string_view::npos) return page.append(rest);
-    page.append(rest.substr(0, begin));
-    page.append(value_of(rest.substr(begin + 1, end - begin - 1), title, data));
-    rest.remove_prefix(end + 1);
-  }
+std::string report_page(const std::string& title, const Json& data) { return filled(kReport, title, data); }
+
+std::string evaluation_page(const std::string& title, const Json& data) {
+  return filled(kEvaluation, title, data);
 }
 
 }  // namespace gyrod::report

@@ -1,4 +1,4 @@
-/// The report as one HTML page that needs nothing else: no network, no second file.
+/// The report and the evaluation as one HTML page each that needs nothing else: no network, no second file.
 #pragma once
 
 #include <string>
@@ -10,6 +10,9 @@ namespace gyrod::report {
 /// Puts the data, scripts and styles into the page's template. A Content-Security-Policy lets the browser run and apply just those,
 /// by hash, and load nothing at all. Whatever text the title or the data hold stays text.
 [[nodiscard]] std::string report_page(const std::string& title, const Json& data);
+
+/// The same for the page of `gyrod evaluate`.
+[[nodiscard]] std::string evaluation_page(const std::string& title, const Json& data);
 
 /// & < > " ' as character references.
 [[nodiscard]] std::string escape_html(std::string_view text);

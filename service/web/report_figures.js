@@ -197,5 +197,5 @@ const reportFigures = (() => {
     }
   }
 
-  return { element, absent, kSchemeColours, record, imfs, acfs, pcc, acfVariance, beforeAfter, allan, errors };
+  return { element, absent, single, kSchemeColours, record, imfs, acfs, pcc, acfVariance, beforeAfter, allan, errors };
 })();

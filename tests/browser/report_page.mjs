@@ -29,6 +29,14 @@ function report(file, name) {
   return { name, page: join(folder, name, "index.html"), json: JSON.parse(readFileSync(join(folder, name, "report.json"), "utf8")) };
 }
 
+/// The page of `gyrod evaluate`, as a report whose axes are its rows.
+function evaluation(file, name, ...args) {
+  gyrod("evaluate", file, "--lag", "0,8,16", "--turn-repeats", "1", ...args, "-o", join(folder, name));
+  const json = JSON.parse(readFileSync(join(folder, name, "evaluation.json"), "utf8"));
+  const axes = Object.fromEntries(json.rows.map((row, i) => [i, `${row.axis} axis`]));
+  return { name, page: join(folder, name, "evaluation.html"), json: { ...json, axes } };
+}
+
 /// A recording that lies still, with accelerometer, so that all figures of the paper can be drawn.
 function withAccelerometer(file) {
   const lines = readFileSync(file, "utf8").trimEnd().split("\n");
@@ -119,7 +127,7 @@ async function look(browser, report, width, colorScheme, figures, tables) {
 }
 
 /// Zoom by mouse, back by double click and by key; the other axes by keyboard.
-async function use(browser, report) {
+async function use(browser, report, tab = "x", next = "y") {
   const { page, where, close } = await open(browser, report, 1280, "light");
   const plot = page.locator("figure .plot").first();
   await plot.scrollIntoViewIfNeeded();
@@ -141,9 +149,9 @@ async function use(browser, report) {
   expect((await pixels()) !== whole, `${where}: plus does not zoom`);
   await page.keyboard.press("0");
   expect((await pixels()) === whole, `${where}: 0 does not show all`);
-  await page.focus("#tab-x");
+  await page.focus(`#tab-${tab}`);
   await page.keyboard.press("ArrowRight");
-  expect(await page.isVisible("#panel-y"), `${where}: an arrow key does not go to the next axis`);
+  expect(await page.isVisible(`#panel-${next}`), `${where}: an arrow key does not go to the next axis`);
   await close();
 }
 
@@ -154,8 +162,9 @@ async function print(browser, report) {
   await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
   const seen = await page.evaluate(inspect);
   expect(seen.blank.length === 0, `${where}, printed: nothing drawn in ${seen.blank}`);
-  for (const axis of Object.keys(report.json.axes)) {
-    expect(seen.titles.some((t) => t.endsWith(`${axis} axis`)), `${where}, printed: axis ${axis} is missing`);
+  for (const [axis, row] of Object.entries(report.json.axes)) {
+    const ending = typeof row === "string" ? row : `${axis} axis`;
+    expect(seen.titles.some((t) => t.endsWith(ending)), `${where}, printed: axis ${axis} is missing`);
   }
   const ink = await page.evaluate(() => [...document.querySelectorAll("canvas")].map((c) => c.getBoundingClientRect().width));
   expect(Math.max(...ink) <= 690, `${where}, printed: a figure is ${Math.max(...ink)} px wide`);
@@ -167,6 +176,8 @@ async function print(browser, report) {
 
 const kFigures = ["Fig. 3", "Fig. 4", "Fig. 5", "Fig. 6", "Fig. 7", "Figs 8, 9", "Fig. 10"];
 const kTables = ["Table 4", "Table 5", "Table 6"];
+const kEvaluationFigures = ["RMSE by lag", "Errors, how often", "10 deg/s within 0.3 s", "2 deg/s within 0.3 s", "20 deg/s^2 for 1 s"];
+const kEvaluationTables = ["RMSE in deg/s with", "RMSE in deg/s by lag", "More of the errors", "What an estimate must not do", "Turns in numbers", "All numbers"];
 const kNavigationFigures = ["Fig. 11", "Fig. 12", "Fig. 13"];
 const kNavigationTables = ["Table 7", "Table 8", "Table 9"];
 
@@ -177,12 +188,16 @@ try {
   const short = report(simulated("short.csv", "--samples", "200"), "short");
   const strange = report(hostile(simulated("strange.csv", "--seconds", "30")), "strange");
   const tiny = report(simulated("tiny.csv", "--samples", "5"), "tiny");
+  const judged = evaluation(join(folder, "drive.csv"), "judged");
+  const composite = evaluation(hostile(join(folder, "drive.csv")), "composite", "--noise", join(folder, "still.csv"), "--noise-scale", "0.5,2", "--axis", "y,z");
 
   for (const [width, scheme] of [[1280, "light"], [1280, "dark"], [390, "light"], [390, "dark"]]) {
     await look(browser, still, width, scheme, [...kFigures, ...kNavigationFigures], [...kTables, ...kNavigationTables]);
     await look(browser, drive, width, scheme, kFigures, kTables);
     await look(browser, short, width, scheme, kFigures, kTables);
     await look(browser, strange, width, scheme, kFigures, kTables);
+    await look(browser, judged, width, scheme, kEvaluationFigures, kEvaluationTables);
+    await look(browser, composite, width, scheme, kEvaluationFigures, kEvaluationTables);
   }
   expect(still.json.record.still && !drive.json.record.still, "the still record is still, the drive is not");
 
@@ -199,6 +214,8 @@ try {
 
   await use(browser, still);
   await print(browser, still);
+  await use(browser, judged, "0", "1");
+  await print(browser, judged);
 } catch (error) {
   expect(false, error.stack);
 } finally {

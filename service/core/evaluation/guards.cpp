@@ -82,7 +82,8 @@ Guard scale_factor(const Contender& plain, const GuardCase& on, double limit) {
   const auto slope = batch_slope(truth, taken, 10);
   if (!slope) return not_applicable(GuardKind::kScaleFactor, limit, "less than 20 s of motion are known");
   const double gain = 1.0 + slope->value;
-  if (2.0 * slope->standard_error > limit) {
+  const bool surely_wrong = std::abs(slope->value) - 2.0 * slope->standard_error > limit;
+  if (2.0 * slope->standard_error > limit && !surely_wrong) {
     Guard guard = not_applicable(GuardKind::kScaleFactor, limit, "too little slow motion to tell");
     guard.value = gain;
     guard.standard_error = slope->standard_error;

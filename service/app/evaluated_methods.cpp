@@ -1,0 +1,59 @@
+#include "app/evaluated_methods.hpp"
+
+#include <numbers>
+#include <utility>
+
+#include "app/record_denoiser.hpp"
+#include "core/denoise/scheme.hpp"
+#include "files/record.hpp"
+
+namespace gyrod::app {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+/// One axis as a recording.
+files::Record record_of(std::span<const double> noisy_dps, double rate_hz) {
+  files::Record record;
+  record.sample_rate_hz = rate_hz;
+  for (std::size_t n = 0; n < noisy_dps.size(); ++n) {
+    record.time_s.push_back(static_cast<double>(n) / rate_hz);
+    record.gyro_radps[0].push_back(kRadPerDeg * noisy_dps[n]);
+  }
+  return record;
+}
+
+/// The window ends at a multiple of the hop; what it releases begins a lag before the end of the last one.
+core::JointPattern joints_of(const stream::EngineOptions& engine) {
+  const std::size_t hop = engine.hop_samples;
+  return {hop, (hop - engine.lag_samples % hop) % hop};
+}
+
+}  // namespace
+
+std::vector<std::string> evaluated_method_names() {
+  std::vector<std::string> names;
+  for (const core::Scheme scheme : core::kAllSchemes) {
+    if (scheme != core::Scheme::kRaw) names.emplace_back(core::name_of(scheme));
+  }
+  return names;
+}
+
+core::Method evaluated_method(const std::string& name, const MethodContext& context) {
+  settings::Settings settings = context.settings;
+  settings.engine.lag_samples = context.lag_samples;
+  const auto run = [name, settings, rate_hz = context.rate_hz](std::span<const double> noisy_dps) {
+    core::Contender contender;
+    contender.name = name;
+    contender.lag_samples = settings.engine.lag_samples;
+    contender.joints = joints_of(settings.engine);
+    auto rates = denoise_record(record_of(noisy_dps, rate_hz), settings,
+                                core::scheme_of(name).value_or(core::Scheme::kRaw), false);
+    contender.estimate = std::move(rates[0]);
+    for (double& value : contender.estimate) value /= kRadPerDeg;
+    return contender;
+  };
+  return {name, context.lag_samples, run};
+}
+
+}  // namespace gyrod::app

@@ -1,0 +1,29 @@
+/// The estimators that `gyrod evaluate` judges: the one place that knows them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/evaluation/contender.hpp"
+#include "settings/settings.hpp"
+
+namespace gyrod::app {
+
+/// What an estimator may know beforehand.
+struct MethodContext {
+  const settings::Settings& settings;
+  std::size_t lag_samples = 0;  ///< instead of that in the settings
+  double rate_hz = 0.0;
+  /// The sensor's noise at rest, for estimators with a noise model; may be empty. Outlives the method.
+  std::span<const double> still_dps;
+};
+
+/// What --methods takes: "direct", "emd", "acf-emd", "improved".
+[[nodiscard]] std::vector<std::string> evaluated_method_names();
+
+/// @pre name is one of evaluated_method_names(); settings outlive the method. Its rates are in deg/s.
+[[nodiscard]] core::Method evaluated_method(const std::string& name, const MethodContext& context);
+
+}  // namespace gyrod::app

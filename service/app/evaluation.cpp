@@ -1,0 +1,245 @@
+#include "app/evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "app/evaluated_methods.hpp"
+#include "core/signal/moments.hpp"
+#include "report/json.hpp"
+
+namespace gyrod::app {
+namespace {
+
+using core::Rival;
+
+/// Rivals of which the best stands in one line.
+struct Family {
+  const char* name;
+  EstimatorKind kind;
+  std::vector<Rival> rivals;
+};
+
+const std::vector<Family>& families() {
+  static const std::vector<Family> all = {
+      {"raw", EstimatorKind::kUntouched, {Rival::kRaw}},
+      {"bias removed", EstimatorKind::kUntouched, {Rival::kBiasRemoved}},
+      {"Butterworth",
+       EstimatorKind::kFilter,
+       {Rival::kButterworth1, Rival::kButterworth2, Rival::kButterworth4}},
+      {"exponential average", EstimatorKind::kFilter, {Rival::kExponential}},
+      {"moving average", EstimatorKind::kFilter, {Rival::kMovingAverage}},
+      {"Savitzky-Golay", EstimatorKind::kFilter, {Rival::kSavitzkyGolay}},
+      {"alpha-beta", EstimatorKind::kFilter, {Rival::kAlphaBeta}},
+      {"One-Euro", EstimatorKind::kFilter, {Rival::kOneEuro}},
+      {"zero-phase Butterworth",
+       EstimatorKind::kBound,
+       {Rival::kZeroPhase1, Rival::kZeroPhase2, Rival::kZeroPhase4}},
+  };
+  return all;
+}
+
+constexpr std::size_t kButterworth = 2;  // in families()
+
+std::string order_of(Rival rival) {
+  const std::string name(core::name_of(rival));
+  const bool has_order = name.back() >= '1' && name.back() <= '4';
+  return has_order ? "order " + std::string(1, name.back()) + ", " : "";
+}
+
+std::string tuning_words(const core::RivalSetting& setting, double rate_hz) {
+  const double parameter = setting.parameter;
+  switch (core::parameter_of(setting.rival)) {
+    case core::RivalParameter::kNone:
+      return "";
+    case core::RivalParameter::kOffset:
+      return "bias " + report::number_text(parameter, 3) + " deg/s";
+    case core::RivalParameter::kCutoff:
+      return order_of(setting.rival) + "cut-off " + report::number_text(parameter * rate_hz, 3) + " Hz" +
+             (setting.second > 0.0 ? " + " + report::number_text(setting.second * rate_hz, 2) + " Hz a step"
+                                   : "");
+    case core::RivalParameter::kShare:
+      return "share " + report::number_text(parameter, 3);
+    case core::RivalParameter::kSamples:
+      return std::to_string(std::llround(parameter)) + " samples";
+    case core::RivalParameter::kIndex:
+      return "tracking index " + report::number_text(parameter, 3);
+  }
+  return "";
+}
+
+/// The best of a family for each bound.
+std::vector<core::TunedRival> tuned(const Family& family, const core::TuningCase& on,
+                                    const std::vector<std::size_t>& bounds) {
+  std::vector<core::TunedRival> best;
+  for (const Rival rival : family.rivals) {
+    const auto now = core::tune(rival, on, bounds);
+    if (best.empty()) best = now;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (now[i].rmse < best[i].rmse) best[i] = now[i];
+    }
+  }
+  return best;
+}
+
+double known_std(const std::vector<double>& x, core::SampleRange range) {
+  std::vector<double> known;
+  for (std::size_t t = range.begin; t < range.end; ++t) {
+    if (std::isfinite(x[t])) known.push_back(x[t]);
+  }
+  return std::sqrt(core::variance(known));
+}
+
+/// Tells how far all is; remembers that it is to stop.
+class Steps {
+ public:
+  Steps(std::size_t total, const std::function<bool(double)>& look) : total_(total), look_(look) {}
+
+  /// @return false to stop
+  bool next() {
+    if (!stopped_ && look_) stopped_ = !look_(static_cast<double>(done_) / static_cast<double>(total_));
+    ++done_;
+    return !stopped_;
+  }
+  [[nodiscard]] bool stopped() const noexcept { return stopped_; }
+
+ private:
+  std::size_t total_;
+  const std::function<bool(double)>& look_;
+  std::size_t done_ = 0;
+  bool stopped_ = false;
+};
+
+class RowJudge {
+ public:
+  RowJudge(const EvaluationRow& row, double rate_hz, const EvaluationOptions& options, Steps& steps)
+      : row_(row), rate_hz_(rate_hz), options_(options), steps_(steps) {
+    judged_.axis = row.axis;
+    judged_.noise_scale = row.noise_scale;
+    judged_.noise_std_dps = known_std(row.noise_dps, options.range);
+    judged_.truth_std_dps = known_std(row.truth_dps, options.range);
+  }
+
+  [[nodiscard]] JudgedRow judge() {
+    for (const std::string& name : options_.methods) judge_method(name);
+    for (const Family& family : families()) judge_family(family);
+    std::vector<core::Method> chosen;
+    for (const std::string& name : options_.methods) chosen.push_back(method(name, own_lag()));
+    chosen.push_back(butterworth());
+    for (const core::Method& one : chosen) closer_look(one);
+    if (options_.turns) take_turns(chosen);
+    return std::move(judged_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t own_lag() const noexcept { return options_.settings.engine.lag_samples; }
+  [[nodiscard]] core::Method method(const std::string& name, std::size_t lag) const {
+    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.still_dps});
+  }
+  [[nodiscard]] core::TuningCase tuning_case() const {
+    return {row_.noisy_dps, row_.truth_dps, options_.range};
+  }
+
+  [[nodiscard]] core::ErrorFigures figures(const core::Contender& contender) const {
+    return core::error_figures(row_.truth_dps, contender, {.rate_hz = rate_hz_, .range = options_.range});
+  }
+
+  void judge_method(const std::string& name) {
+    JudgedEstimator estimator{name, EstimatorKind::kMethod, {}};
+    for (const std::size_t lag : options_.lag_samples) {
+      if (!steps_.next()) return;
+      estimator.lags.push_back({lag, lag, "", figures(method(name, lag).run(row_.noisy_dps))});
+    }
+    judged_.estimators.push_back(std::move(estimator));
+  }
+
+  void judge_family(const Family& family) {
+    if (!steps_.next()) return;
+    JudgedEstimator estimator{family.name, family.kind, {}};
+    for (const core::TunedRival& best : tuned(family, tuning_case(), options_.lag_samples)) {
+      const core::Contender contender = core::method_of(best).run(row_.noisy_dps);
+      estimator.lags.push_back(
+          {best.lag_bound, best.setting.delay, tuning_words(best.setting, rate_hz_), figures(contender)});
+    }
+    judged_.estimators.push_back(std::move(estimator));
+  }
+
+  [[nodiscard]] core::Method butterworth() const {
+    const auto best = tuned(families()[kButterworth], tuning_case(), {own_lag()});
+    core::Method tuned_one = core::method_of(best[0]);
+    tuned_one.name = "Butterworth";
+    return tuned_one;
+  }
+
+  void closer_look(const core::Method& one) {
+    if (!steps_.next()) return;
+    const core::Contender plain = one.run(row_.noisy_dps);
+    add_histogram(one.name, plain);
+    if (!steps_.next()) return;
+    const core::GuardCase on{row_.noisy_dps, row_.truth_dps, options_.range, rate_hz_};
+    judged_.guards.push_back({one.name, core::guards(one, plain, on)});
+  }
+
+  void take_turns(const std::vector<core::Method>& chosen) {
+    core::TurnOptions turn;
+    turn.rate_hz = rate_hz_;
+    turn.repeats = options_.turn_repeats;
+    for (const core::TurnProfile& profile : core::kTurnProfiles) {
+      for (const core::Method& one : chosen) {
+        if (!steps_.next()) return;
+        judged_.turns.push_back(
+            {one.name, std::string(profile.name), core::turn_response(one, profile, row_.noise_dps, turn)});
+      }
+    }
+  }
+
+  /// Bins from -4 to 4 standard deviations of the noise.
+  void add_histogram(const std::string& name, const core::Contender& contender) {
+    constexpr std::size_t kBins = 81;
+    const double width = 8.0 * std::max(judged_.noise_std_dps, 1e-9) / static_cast<double>(kBins);
+    judged_.bin_centres_dps.resize(kBins);
+    for (std::size_t i = 0; i < kBins; ++i) {
+      judged_.bin_centres_dps[i] = width * (static_cast<double>(i) - static_cast<double>(kBins / 2));
+    }
+    ErrorHistogram histogram{name, std::vector<double>(kBins, 0.0)};
+    double count = 0.0;
+    for (std::size_t t = options_.range.begin; t < options_.range.end; ++t) {
+      const double error = contender.estimate[t] - row_.truth_dps[t];
+      if (!std::isfinite(error)) continue;
+      const double bin =
+          std::clamp(std::floor(error / width + 0.5 * kBins), 0.0, static_cast<double>(kBins - 1));
+      histogram.shares[static_cast<std::size_t>(bin)] += 1.0;
+      count += 1.0;
+    }
+    for (double& share : histogram.shares) share /= std::max(count, 1.0);
+    judged_.histograms.push_back(std::move(histogram));
+  }
+
+  const EvaluationRow& row_;
+  double rate_hz_;
+  const EvaluationOptions& options_;
+  Steps& steps_;
+  JudgedRow judged_;
+};
+
+std::size_t steps_a_row(const EvaluationOptions& options) {
+  const std::size_t close = 2 + (options.turns ? core::kTurnProfiles.size() : 0);
+  return options.methods.size() * options.lag_samples.size() + families().size() +
+         (1 + options.methods.size()) * close;
+}
+
+}  // namespace
+
+std::vector<JudgedRow> evaluate(const EvaluationRows& rows, const EvaluationOptions& options) {
+  Steps steps(rows.rows.size() * steps_a_row(options), options.look);
+  std::vector<JudgedRow> judged;
+  for (const EvaluationRow& row : rows.rows) {
+    judged.push_back(RowJudge(row, rows.rate_hz, options, steps).judge());
+    if (steps.stopped()) return {};
+  }
+  return judged;
+}
+
+}  // namespace gyrod::app

@@ -1,0 +1,236 @@
+#include "app/evaluation_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "core/signal/interpolation.hpp"
+#include "core/signal/moments.hpp"
+#include "files/column_names.hpp"
+#include "files/file_error.hpp"
+#include "files/rate_unit.hpp"
+#include "report/stillness.hpp"
+
+namespace gyrod::app {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+constexpr std::size_t kFewestSamples = 100;
+
+std::size_t index_of(const std::string& axis) { return static_cast<std::size_t>(axis.back() - 'x'); }
+
+files::RecordOptions record_options(const EvaluationInput& input) {
+  files::RecordOptions options;
+  options.reader.skip_broken_rows = input.skip_broken_rows;
+  options.reader.allow_missing_axes = true;
+  options.sample_rate_hz = input.rate_hz;
+  options.other_columns = true;
+  options.progress = input.progress;
+  return options;
+}
+
+/// PREFIXx_UNIT in deg/s; empty where there is no such column.
+std::vector<double> truth_column(const files::Record& record, const std::string& prefix,
+                                 const std::string& axis) {
+  for (const auto unit : {files::RateUnit::kRadps, files::RateUnit::kMradps, files::RateUnit::kDps,
+                          files::RateUnit::kMdps, files::RateUnit::kDph}) {
+    const auto found = record.others.find(prefix + axis.back() + "_" + std::string(files::spelling_of(unit)));
+    if (found == record.others.end()) continue;
+    const double sign = axis.front() == '-' ? -kDegPerRad : kDegPerRad;
+    std::vector<double> truth = found->second;
+    for (double& value : truth) value = sign * files::to_radps(value, unit);
+    return truth;
+  }
+  return {};
+}
+
+std::vector<double> gyro_column(const files::Record& record, const std::string& axis) {
+  std::vector<double> rates = record.gyro_radps[index_of(axis)];
+  if (rates.empty()) throw files::FileError(record.name + ": has no column gyro_" + axis.back() + "_UNIT");
+  const double sign = axis.front() == '-' ? -kDegPerRad : kDegPerRad;
+  for (double& value : rates) value *= sign;
+  return rates;
+}
+
+[[noreturn]] void complain_of_no_truth(const files::Record& record, const EvaluationInput& input) {
+  const std::string wanted =
+      input.truth_prefix ? *input.truth_prefix + "x_UNIT" : std::string("truth_x_UNIT or ref_gyro_x_UNIT");
+  throw files::FileError(
+      record.name + ": no truth to compare with; expected columns " + wanted +
+      " and so on for y and z (--truth-columns PREFIX for others), or --noise STILL.csv with "
+      "--signal-is-truth, which takes the recorded rates for the truth; found " +
+      files::names_of(record.others));
+}
+
+std::string prefix_of(const files::Record& record, const EvaluationInput& input) {
+  for (const std::string& prefix : input.truth_prefix ? std::vector<std::string>{*input.truth_prefix}
+                                                      : std::vector<std::string>{"truth_", "ref_gyro_"}) {
+    const auto there = [&](const std::string& axis) {
+      return !truth_column(record, prefix, input.truth_axes[index_of(axis)]).empty();
+    };
+    if (std::ranges::all_of(input.axes, there)) return prefix;
+  }
+  complain_of_no_truth(record, input);
+}
+
+/// NaN between two numbers becomes a straight line; NaN at an end the nearest number.
+std::vector<double> bridged(std::vector<double> values) {
+  const auto known = [](double value) { return std::isfinite(value); };
+  auto next = std::ranges::find_if(values, known);
+  std::fill(values.begin(), next, *next);
+  while (next != values.end()) {
+    const auto last = next;
+    next = std::find_if(last + 1, values.end(), known);
+    const auto lost = static_cast<std::size_t>(next - last) - 1;
+    const double right = next == values.end() ? *last : *next;
+    for (std::size_t step = 0; step < lost; ++step) {
+      *(last + 1 + static_cast<std::ptrdiff_t>(step)) = core::bridge(*last, right, step, lost);
+    }
+  }
+  return values;
+}
+
+std::vector<double> without_mean(std::vector<double> values) {
+  const double mean = core::mean(values);
+  for (double& value : values) value -= mean;
+  return values;
+}
+
+/// A stretch of a recording, from its beginning again where it ends.
+std::vector<double> stretch(std::span<const double> all, std::size_t start, std::size_t samples) {
+  std::vector<double> part(samples);
+  for (std::size_t n = 0; n < samples; ++n) part[n] = all[(start + n) % all.size()];
+  return part;
+}
+
+std::vector<double> scaled(std::vector<double> values, double scale) {
+  for (double& value : values) value *= scale;
+  return values;
+}
+
+files::Record load_noise(const EvaluationInput& input, double rate_hz) {
+  files::RecordOptions options = record_options(input);
+  options.other_columns = false;
+  // Without a time column its samples are taken one by one at the signal's rate.
+  if (!options.sample_rate_hz && files::RecordingReader(input.noise, options.reader).stamps_made_up()) {
+    options.sample_rate_hz = rate_hz;
+  }
+  files::Record noise = files::load_record(input.noise, options);
+  constexpr double kAlike = 0.01;
+  if (std::abs(noise.sample_rate_hz / rate_hz - 1.0) > kAlike) {
+    throw files::FileError(
+        noise.name + ": was sampled at " + std::to_string(noise.sample_rate_hz) + " Hz, the signal at " +
+        std::to_string(rate_hz) +
+        " Hz; nothing is resampled: give --rate HZ to take both sample by sample at that rate");
+  }
+  if (noise.size() < kFewestSamples) {
+    throw files::FileError(noise.name + ": holds " + std::to_string(noise.size()) +
+                           " good samples; expected at least " + std::to_string(kFewestSamples));
+  }
+  return noise;
+}
+
+class RowMaker {
+ public:
+  explicit RowMaker(const EvaluationInput& input)
+      : input_(input), record_(files::load_record(input.recording, record_options(input))) {
+    all_.name = record_.name;
+    all_.rate_hz = record_.sample_rate_hz;
+    all_.samples = record_.size();
+    if (record_.size() < kFewestSamples) {
+      throw files::FileError(record_.name + ": holds " + std::to_string(record_.size()) +
+                             " good samples in one stretch; expected at least " +
+                             std::to_string(kFewestSamples));
+    }
+    if (!input_.signal_is_truth) prefix_ = prefix_of(record_, input_);
+    all_.truth_columns = input_.signal_is_truth ? "gyro" : prefix_;
+    tell_of_gaps();
+  }
+
+  [[nodiscard]] EvaluationRows make() {
+    if (input_.noise.empty()) {
+      for (const std::string& axis : input_.axes) all_.rows.push_back(measured_row(axis));
+      return std::move(all_);
+    }
+    const files::Record noise = load_noise(input_, record_.sample_rate_hz);
+    all_.noise_name = noise.name;
+    tell_of_noise(noise);
+    for (const double scale : input_.noise_scales) {
+      for (const std::string& axis : input_.axes) all_.rows.push_back(composite_row(axis, scale, noise));
+    }
+    return std::move(all_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> truth(const std::string& axis) const {
+    if (input_.signal_is_truth) return gyro_column(record_, axis);
+    std::vector<double> truth = truth_column(record_, prefix_, input_.truth_axes[index_of(axis)]);
+    if (std::ranges::none_of(truth, [](double value) { return std::isfinite(value); })) {
+      throw files::FileError(record_.name + ": its truth " + prefix_ + axis + " holds no number");
+    }
+    return truth;
+  }
+
+  [[nodiscard]] EvaluationRow measured_row(const std::string& axis) const {
+    EvaluationRow row;
+    row.axis = axis;
+    row.truth_dps = truth(axis);
+    row.noisy_dps = gyro_column(record_, axis);
+    row.noise_dps = row.noisy_dps;
+    for (std::size_t n = 0; n < row.noise_dps.size(); ++n) row.noise_dps[n] -= row.truth_dps[n];
+    row.noise_dps = without_mean(bridged(row.noise_dps));
+    return row;
+  }
+
+  [[nodiscard]] EvaluationRow composite_row(const std::string& axis, double scale,
+                                            const files::Record& noise) const {
+    const std::vector<double> all = gyro_column(noise, input_.noise_axes[index_of(axis)]);
+    EvaluationRow row;
+    row.axis = axis;
+    row.noise_scale = scale;
+    row.truth_dps = truth(axis);
+    const std::size_t samples = row.truth_dps.size();
+    row.noise_dps = scaled(without_mean(stretch(all, input_.noise_start, samples)), scale);
+    const std::size_t end = input_.noise_start + samples;
+    if (end + kFewestSamples <= all.size()) {
+      row.still_dps = scaled(without_mean(stretch(all, end, all.size() - end)), scale);
+    }
+    row.noisy_dps = bridged(row.truth_dps);
+    for (std::size_t n = 0; n < samples; ++n) row.noisy_dps[n] += row.noise_dps[n];
+    return row;
+  }
+
+  void tell_of_gaps() {
+    if (record_.counts.left_out == 0) return;
+    all_.cautions.push_back(record_.name + ": " + std::to_string(record_.counts.gaps) +
+                            " long gaps; the longest stretch is judged, " +
+                            std::to_string(record_.counts.left_out) + " good samples are left out");
+  }
+
+  void tell_of_noise(const files::Record& noise) {
+    for (const std::string& axis : input_.axes) {
+      const std::vector<double> rates = gyro_column(noise, input_.noise_axes[index_of(axis)]);
+      if (report::stillness(rates, noise.sample_rate_hz).still()) continue;
+      all_.cautions.push_back(noise.name + ": axis " + input_.noise_axes[index_of(axis)] +
+                              " moves; its motion counts as noise");
+    }
+    if (input_.noise_start + record_.size() <= noise.size()) return;
+    all_.cautions.push_back(noise.name + ": " + std::to_string(noise.size()) + " samples from " +
+                            std::to_string(input_.noise_start) + " on are too few for " +
+                            std::to_string(record_.size()) +
+                            " of the signal; they begin again from the first");
+  }
+
+  const EvaluationInput& input_;
+  files::Record record_;
+  std::string prefix_;
+  EvaluationRows all_;
+};
+
+}  // namespace
+
+EvaluationRows evaluation_rows(const EvaluationInput& input) { return RowMaker(input).make(); }
+
+}  // namespace gyrod::app

@@ -1,0 +1,64 @@
+/// The rows of an evaluation: for each axis and each scale of the noise what is true and what an estimator is given.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/record.hpp"
+
+namespace gyrod::app {
+
+/// Where truth and noise come from.
+struct EvaluationInput {
+  std::string recording;
+  std::optional<double> rate_hz;  ///< of the recording and of the noise, whatever their stamps say
+  /// Beginning of the truth's column names, PREFIXx_UNIT; nothing: truth_ or ref_gyro_.
+  std::optional<std::string> truth_prefix;
+  /// Which column is the truth of the sensor's x, y, z, each with an optional minus.
+  std::array<std::string, 3> truth_axes = {"x", "y", "z"};
+  /// The recording's own rates are the truth; needs noise.
+  bool signal_is_truth = false;
+  /// A still recording whose noise is added to the truth; empty: the recording's own rates are what estimators are given.
+  std::string noise;
+  std::array<std::string, 3> noise_axes = {"x", "y", "z"};
+  std::size_t noise_start = 0;
+  std::vector<double> noise_scales = {1.0};
+  std::vector<std::string> axes = {"x", "y", "z"};
+  bool skip_broken_rows = false;
+  /// As files::RecordOptions::progress.
+  std::function<bool(std::optional<double>, std::uint64_t)> progress;
+};
+
+/// All series are equally long but still_dps.
+struct EvaluationRow {
+  std::string axis;
+  double noise_scale = 1.0;
+  std::vector<double> truth_dps;  ///< NaN where it is not known
+  std::vector<double> noisy_dps;  ///< finite
+  std::vector<double>
+      noise_dps;  ///< finite, mean 0: what is added, or measured minus true, where the truth is lost by straight lines
+  std::vector<double>
+      still_dps;  ///< the same noise where it is not added, for methods that know the sensor's noise; may be empty
+};
+
+struct EvaluationRows {
+  std::string name;           ///< of the recording
+  std::string noise_name;     ///< empty: none was added
+  std::string truth_columns;  ///< "ref_gyro_", or "gyro" where the signal is the truth
+  double rate_hz = 0.0;
+  std::size_t samples = 0;
+  std::vector<EvaluationRow> rows;  ///< all axes of the first scale, then of the next
+  std::vector<std::string> cautions;
+};
+
+/// @throws files::FileError for no truth, rates that differ, an axis that a file does not have, less than 100 samples, a truth without a
+/// number
+/// @throws files::Stopped
+[[nodiscard]] EvaluationRows evaluation_rows(const EvaluationInput& input);
+
+}  // namespace gyrod::app

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "app/evaluation_report.hpp"
+
+namespace gyrod::app {
+namespace {
+
+constexpr int kNameWidth = 26;
+constexpr int kNumberWidth = 9;
+constexpr int kAngleWidth = 12;
+
+std::string padded(const std::string& text, int width) {
+  const std::size_t wanted =
+      static_cast<std::size_t>(width) - std::min(text.size(), static_cast<std::size_t>(width));
+  return std::string(wanted, ' ');
+}
+/// Never runs into its neighbour.
+std::string left(const std::string& text, int width) { return text + padded(text, width); }
+std::string right(const std::string& text, int width = kNumberWidth) { return padded(text, width) + text; }
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+std::string fixed(const std::optional<double>& value, int decimals, double factor = 1.0) {
+  return value ? fixed(factor * *value, decimals) : "-";
+}
+
+std::string head(const Evaluation& evaluation) {
+  const auto& [rows, options, judged] = evaluation;
+  std::string text = rows.name + ": " + std::to_string(rows.samples) + " samples at " +
+                     report::number_text(rows.rate_hz) + " Hz, truth " + rows.truth_columns + "x, ...";
+  if (!rows.noise_name.empty()) text += "; noise of " + rows.noise_name + " added sample by sample";
+  return text + "\njudged: samples " + std::to_string(options.range.begin) + " to " +
+         std::to_string(options.range.end) + "\n";
+}
+
+std::string row_name(const JudgedRow& row) {
+  return "axis " + row.axis + ", noise " + fixed(row.noise_std_dps, 3) + " deg/s" +
+         (row.noise_scale == 1.0 ? std::string()
+                                 : " (scaled by " + report::number_text(row.noise_scale, 3) + ")") +
+         ", motion " + fixed(row.truth_std_dps, 3) + " deg/s";
+}
+
+std::string line_of(const JudgedEstimator& estimator) {
+  const bool tuned = estimator.kind == EstimatorKind::kFilter || estimator.kind == EstimatorKind::kBound;
+  std::string text = "  " + left(estimator.name + (tuned ? " *" : ""), kNameWidth);
+  for (const JudgedLag& lag : estimator.lags) text += right(fixed(lag.figures.rmse, 4));
+  const JudgedLag& last = estimator.lags.back();
+  const auto& angle = last.figures.angle_60s ? last.figures.angle_60s : last.figures.angle_10s;
+  text += right(angle ? fixed(angle->rms, 3) : "-", kAngleWidth);
+  if (!last.tuning.empty()) text += "   " + last.tuning;
+  if (estimator.kind == EstimatorKind::kFilter) text += ", lag " + std::to_string(last.lag_samples);
+  return text + "\n";
+}
+
+std::string errors_table(const JudgedRow& row, const EvaluationOptions& options) {
+  const JudgedLag& first = row.estimators.front().lags.back();
+  std::string text = "\n" + row_name(row) + "\n  " + left("RMSE, deg/s, by lag", kNameWidth);
+  for (const std::size_t lag : options.lag_samples) text += right(std::to_string(lag));
+  text += right(first.figures.angle_60s ? "60 s, deg" : "10 s, deg", kAngleWidth) + "\n";
+  for (const JudgedEstimator& estimator : row.estimators) text += line_of(estimator);
+  if (first.figures.lost_truth > 0) {
+    text += "  " + std::to_string(first.figures.lost_truth) + " samples have no truth and are not judged\n";
+  }
+  return text;
+}
+
+std::string guard_cell(const core::Guard& guard) {
+  if (guard.verdict == core::Verdict::kNotApplicable)
+    return guard.value ? "(" + fixed(guard.value, 3) + ")" : "-";
+  return fixed(guard.value, 3) + (guard.verdict == core::Verdict::kPass ? " ok" : " FAIL");
+}
+
+std::string guards_table(const JudgedRow& row) {
+  constexpr int kWidth = 16;
+  std::string text = "\n  " + left("guards", kNameWidth);
+  for (const JudgedGuards& judged : row.guards)
+    text += right(judged.name + (judged.name == "Butterworth" ? " *" : ""), kWidth);
+  text += right("limit", kWidth) + "\n";
+  for (std::size_t i = 0; i < row.guards.front().guards.size(); ++i) {
+    const core::Guard& first = row.guards.front().guards[i];
+    text += "  " + left(std::string(core::name_of(first.kind)), kNameWidth);
+    for (const JudgedGuards& judged : row.guards) text += right(guard_cell(judged.guards[i]), kWidth);
+    const bool gain =
+        first.kind == core::GuardKind::kSlowTurnGain || first.kind == core::GuardKind::kSwingGain ||
+        first.kind == core::GuardKind::kScaleFactor || first.kind == core::GuardKind::kVibrationGain;
+    text +=
+        right((gain ? "1 +- " : "") + report::number_text(row.guards.front().guards[i].limit, 3), kWidth) +
+        "\n";
+  }
+  return text;
+}
+
+std::string turns_table(const JudgedRow& row) {
+  if (row.turns.empty()) return "";
+  std::string text = "\n  " + left("turn after 60 s straight", kNameWidth) + left("", 16) +
+                     right("50 %, ms") + right("95 %, ms") + right("over, %") +
+                     right("peak error, deg/s", 20) + "\n";
+  for (const JudgedTurn& turn : row.turns) {
+    text += "  " + left(turn.profile, kNameWidth) +
+            left(turn.name + (turn.name == "Butterworth" ? " *" : ""), 16) +
+            right(fixed(turn.response.half_delay_s, 0, 1e3)) + right(fixed(turn.response.time_95_s, 0, 1e3)) +
+            right(fixed(100.0 * turn.response.overshoot, 1)) +
+            right(fixed(turn.response.peak_error_dps, 2), 20) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string evaluation_text(const Evaluation& evaluation) {
+  std::string text = head(evaluation);
+  for (const std::string& caution : evaluation.rows.cautions) text += "caution: " + caution + "\n";
+  for (const JudgedRow& row : evaluation.judged) {
+    text += errors_table(row, evaluation.options) + guards_table(row) + turns_table(row);
+  }
+  text +=
+      "\n* tuned on the truth, which no user can do: the order and cut-off (or length, ...) and the delay up "
+      "to the lag that\n"
+      "  make the RMSE least; zero-phase looks at the whole record. Tuning named for the largest lag. Angle "
+      "error: rms over\n"
+      "  windows, at the largest lag. Guards and turns: at the lag of the configuration, " +
+      std::to_string(evaluation.options.settings.engine.lag_samples) +
+      " samples; in brackets: not applicable.\n";
+  return text;
+}
+
+}  // namespace gyrod::app

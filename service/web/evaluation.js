@@ -1,0 +1,218 @@
+"use strict";
+// Builds the page of an evaluation from the data that stand in it: evaluation.json, word for word.
+(() => {
+  const { element, single, kSchemeColours } = reportFigures;
+  const { number } = gyrodCharts;
+  const evaluation = JSON.parse(document.getElementById("data").textContent);
+  const byId = (id) => document.getElementById(id);
+  const kColours = { ...kSchemeColours, "bias removed": "--raw", Butterworth: "--noise", "Savitzky-Golay": "--mixed", "zero-phase Butterworth": "--signal" };
+  const colourOf = (name) => kColours[name] ?? "--accent";
+  const kDrawn = new Set(["raw", "Butterworth", "Savitzky-Golay", "zero-phase Butterworth"]);
+  const kStarred = new Set(["filter", "bound"]);
+
+  /// rows: lists of cells; a cell is a number, text, or {text, colour, className}. The first `words` columns hold words.
+  function table(parent, caption, heads, rows, words = 1) {
+    const box = element("div", undefined, "scroll");
+    box.tabIndex = 0;
+    box.setAttribute("role", "region");
+    box.setAttribute("aria-label", caption);
+    const made = element("table", undefined, "numbers");
+    made.append(element("caption", caption));
+    const head = made.createTHead().insertRow();
+    heads.forEach((text, i) => {
+      const cell = element("th", text, i < words ? "text" : undefined);
+      cell.scope = "col";
+      head.append(cell);
+    });
+    const body = made.createTBody();
+    for (const { cells, strong } of rows) {
+      const row = body.insertRow();
+      if (strong) row.className = "strong";
+      cells.forEach((cell, i) => fill(row.insertCell(), cell, i < words));
+    }
+    box.append(made);
+    parent.append(box);
+  }
+
+  function fill(place, cell, isWord) {
+    const rich = cell !== null && typeof cell === "object" ? cell : { text: typeof cell === "string" ? cell : number(cell) };
+    place.className = isWord ? "text" : "";
+    if (rich.colour) {
+      const swatch = element("span", undefined, "swatch");
+      swatch.style.background = `var(${rich.colour})`;
+      place.append(swatch);
+    }
+    place.append(element("span", rich.text, rich.className));
+  }
+
+  const rowName = (row) => `${row.axis} axis${evaluation.rows.some((r) => r.noise_scale !== 1) ? `, noise × ${number(row.noise_scale, 2)}` : ""}`;
+  const star = (estimator) => (kStarred.has(estimator.kind) ? `${estimator.name} *` : estimator.name);
+  const nameCell = (estimator) => ({ text: star(estimator), colour: kDrawn.has(estimator.name) || estimator.kind === "method" ? colourOf(estimator.name) : undefined });
+  const last = (estimator) => estimator.lags.at(-1);
+  const withError = (value, error) => (value === null ? "–" : `${number(value)} ± ${number(error, 2)}`);
+  const ofKind = (row, kind) => row.estimators.filter((e) => e.kind === kind);
+
+  function card(parent, title) {
+    const made = element("section", undefined, "card");
+    made.append(element("h2", title));
+    parent.append(made);
+    return made;
+  }
+
+  function head() {
+    const { record } = evaluation;
+    byId("version").textContent = evaluation.made_by;
+    byId("facts").textContent =
+      `${record.samples.toLocaleString("en")} samples, ${number(record.sample_rate_hz)} Hz, truth ${record.truth_columns}…` +
+      `${record.noise === null ? "" : `, noise of ${record.noise}`}, judged: samples ${evaluation.judged_from_sample} to ${evaluation.judged_to_sample}`;
+    summary(byId("summary"));
+    for (const caution of evaluation.cautions) byId("summary").append(element("p", caution, "absent"));
+    const files = [["evaluation.json", "all numbers of this page"], ["evaluation.csv", "errors: a row an axis, noise, estimator and lag"], ["guards.csv", "guards"]];
+    if (evaluation.rows.some((row) => row.turns.length > 0)) files.push(["turns.csv", "turns"]);
+    table(byId("files"), "All numbers of this page", ["file", "holds"], files.map((cells) => ({ cells })), 2);
+  }
+
+  function summary(parent) {
+    const most = evaluation.lags_samples.at(-1);
+    const rows = evaluation.rows.flatMap((row) => {
+      const raw = last(row.estimators.find((e) => e.name === "raw")).rmse_dps;
+      const filters = ofKind(row, "filter").sort((a, b) => last(a).rmse_dps - last(b).rmse_dps);
+      const bound = last(ofKind(row, "bound")[0]).rmse_dps;
+      return ofKind(row, "method").map((method) => {
+        const failed = row.guards.filter((g) => g.name === method.name && g.verdict === "fail").length;
+        return {
+          strong: last(method).rmse_dps < last(filters[0]).rmse_dps,
+          cells: [rowName(row), { text: method.name, colour: colourOf(method.name) }, last(method).rmse_dps, raw, last(filters[0]).rmse_dps, bound, String(failed), filters[0].name],
+        };
+      });
+    });
+    table(parent, `RMSE in deg/s with at most ${most} samples of lag`, ["row", "method", "its RMSE", "raw", "best filter *", "zero-phase *", "guards failed", "that filter"], rows, 2);
+    parent.append(element("p", "* tuned on the truth, which no user can do. Bold: a method that is not tuned and still better than each of the causal filters that are.", "note"));
+  }
+
+  function errorsCard(parent, row) {
+    const made = card(parent, "Errors");
+    const lags = row.estimators[0].lags.map((l) => l.lag_bound_samples);
+    const drawn = row.estimators.filter((e) => e.kind === "method" || kDrawn.has(e.name));
+    if (lags.length > 1) {
+      single(made, `RMSE by lag, ${rowName(row)}`, "* tuned on the truth. The other filters stand in the table.", {
+        x: { label: "lag, samples", whole: true },
+        y: { label: "RMSE, deg/s" },
+        series: drawn.map((e) => ({ label: star(e), colour: colourOf(e.name), width: e.kind === "method" ? 2.2 : 1.4, points: e.kind === "method" || e.kind === "filter" })),
+        data: [lags, ...drawn.map((e) => e.lags.map((l) => l.rmse_dps))],
+      });
+    }
+    table(made, `RMSE in deg/s by lag, ${rowName(row)}`, ["estimator", "tuned to, at the largest lag", ...lags.map((l) => `lag ${l}`), "its own lag"],
+      row.estimators.map((e) => ({ strong: e.kind === "method", cells: [nameCell(e), last(e).tuning || "–", ...e.lags.map((l) => l.rmse_dps), e.kind === "bound" ? "–" : String(last(e).lag_samples)] })), 2);
+    table(made, `More of the errors, at the largest lag, ${rowName(row)}`,
+      ["estimator", "bias, deg/s", "angle in 10 s, deg", "spread", "angle in 60 s, deg", "spread", "scale factor", "correlation peak, samples", "normalised error"],
+      row.estimators.map((e) => {
+        const l = last(e);
+        return { strong: e.kind === "method", cells: [nameCell(e), withError(l.bias_dps, l.bias_standard_error_dps), l.angle_10s_rms_deg, l.angle_10s_std_deg, l.angle_60s_rms_deg, l.angle_60s_std_deg, withError(l.scale_factor, l.scale_factor_standard_error), l.peak_lag_samples, l.normalised_error] };
+      }));
+    const { samples, lost_truth_samples: lost } = last(row.estimators[0]);
+    made.append(element("p", `${samples.toLocaleString("en")} samples judged${lost > 0 ? `, ${lost.toLocaleString("en")} have no truth` : ""}. Noise ${number(row.noise_std_dps)} deg/s, motion ${number(row.truth_std_dps)} deg/s (standard deviations).`, "note"));
+    histogram(made, row);
+  }
+
+  function histogram(parent, row) {
+    const { bin_centres_dps: centres, of } = row.histograms;
+    single(parent, `Errors, how often, ${rowName(row)}`, `At a lag of ${evaluation.own_lag_samples} samples. What lies outside counts in the first and last bin.`, {
+      x: { label: "error, deg/s" },
+      y: { label: "share of the samples" },
+      series: of.map((h) => ({ label: h.name, colour: colourOf(h.name), width: 1.6 })),
+      data: [centres, ...of.map((h) => h.shares)],
+    });
+  }
+
+  const kGuards = {
+    "mean-preserved": ["mean preserved, standard errors", "≤"],
+    "slow-turn-gain": ["gain at 0.1 Hz", "1 ±"],
+    "swing-gain": ["gain at 1 Hz", "1 ±"],
+    "scale-factor": ["scale factor of slow motion", "1 ±"],
+    "joint-roughness": ["roughness at joints", "≤"],
+    "joint-outliers": ["outliers at joints", "≤"],
+    "joint-worst-step": ["worst step at joints", "≤"],
+    delay: ["delay, samples", "±"],
+    "vibration-gain": ["gain of vibration", "1 ±"],
+  };
+
+  function verdictCell(guard) {
+    if (guard.verdict === "not applicable") return { text: guard.value === null ? `– ${guard.reason}` : `(${number(guard.value)}) ${guard.reason}`, className: "soft" };
+    return { text: `${number(guard.value)} ${guard.verdict === "pass" ? "✓" : "✗ fails"}`, className: guard.verdict === "pass" ? "class-signal" : "class-noise" };
+  }
+
+  function guardsCard(parent, row) {
+    const made = card(parent, "Guards");
+    const names = [...new Set(row.guards.map((g) => g.name))];
+    const find = (name, guard) => row.guards.find((g) => g.name === name && g.guard === guard);
+    table(made, `What an estimate must not do, lag ${evaluation.own_lag_samples}, ${rowName(row)}`, ["guard", ...names.map((n) => (n === "Butterworth" ? "Butterworth *" : n)), "limit"],
+      Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${number(find(names[0], guard).limit, 3)}`] })), names.length + 2);
+  }
+
+  function turnsCard(parent, row) {
+    if (row.turns.length === 0) return;
+    const made = card(parent, "Turns after 60 s straight");
+    for (const turn of [...new Set(row.turns.map((t) => t.turn))]) {
+      const runs = row.turns.filter((t) => t.turn === turn);
+      const step = 1 / evaluation.record.sample_rate_hz;
+      single(made, `${turn}, ${rowName(row)}`, "Mean over the runs.", {
+        height: 240,
+        x: { label: "time since the turn's start, s" },
+        y: { label: "rate, deg/s" },
+        series: [{ label: "truth", colour: "--truth", width: 1.2, dash: [5, 4] }, ...runs.map((t) => ({ label: t.name, colour: colourOf(t.name), width: 1.6 }))],
+        data: [runs[0].trace_dps.map((_, i) => runs[0].trace_start_s + i * step), runs[0].trace_truth_dps, ...runs.map((t) => t.trace_dps)],
+      });
+    }
+    table(made, `Turns in numbers, ${rowName(row)}`, ["turn", "estimator", "half, ms later than the truth", "95 %, ms after the start", "overshoot, %", "peak error, deg/s"],
+      row.turns.map((t) => ({ strong: t.name !== "Butterworth", cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), 2);
+  }
+
+  function buildPanel(i) {
+    const panel = byId(`panel-${i}`);
+    if (panel.childElementCount > 0) return;
+    const row = evaluation.rows[i];
+    panel.append(element("h2", rowName(row), "axis-name"));
+    for (const build of [errorsCard, guardsCard, turnsCard]) build(panel, row);
+  }
+
+  function choose(chosen) {
+    evaluation.rows.forEach((_, i) => {
+      byId(`tab-${i}`).setAttribute("aria-selected", String(i === chosen));
+      byId(`tab-${i}`).tabIndex = i === chosen ? 0 : -1;
+      byId(`panel-${i}`).hidden = i !== chosen;
+    });
+    buildPanel(chosen);
+  }
+
+  function tabs() {
+    const count = evaluation.rows.length;
+    evaluation.rows.forEach((row, i) => {
+      const tab = element("button", rowName(row));
+      tab.type = "button";
+      tab.id = `tab-${i}`;
+      tab.setAttribute("role", "tab");
+      tab.setAttribute("aria-controls", `panel-${i}`);
+      tab.addEventListener("click", () => choose(i));
+      byId("rows").append(tab);
+      const panel = element("div", undefined, "panel");
+      panel.id = `panel-${i}`;
+      panel.setAttribute("role", "tabpanel");
+      panel.setAttribute("aria-labelledby", tab.id);
+      byId("panels").append(panel);
+    });
+    byId("rows").addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (!step) return;
+      const at = evaluation.rows.findIndex((_, i) => byId(`tab-${i}`) === document.activeElement);
+      const next = (at + step + count) % count;
+      choose(next);
+      byId(`tab-${next}`).focus();
+    });
+    choose(0);
+  }
+
+  head();
+  tabs();
+  gyrodCharts.page.beforePrint = () => evaluation.rows.forEach((_, i) => buildPanel(i));
+})();

@@ -1,0 +1,212 @@
+/// `gyrod evaluate`: an error that is known is found; filters are tuned; what cannot be done is said.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/exit_code.hpp"
+#include "rig.hpp"
+
+namespace gyrod::testing {
+namespace {
+
+using app::ExitCode;
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// One axis, 100 Hz: a slow swing, measured with white noise of 0.2 deg/s and a bias of 0.05 deg/s.
+struct Recording {
+  int samples = 6000;
+  double rate_hz = 100.0;
+  double noise_dps = 0.2;
+  double bias_dps = 0.05;
+  double amplitude_dps = 5.0;
+  bool stamps = true;
+  std::string_view truth = "truth_z_dps";
+  int lost_from = 0;
+  int lost_to = 0;
+
+  [[nodiscard]] std::string text() const {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    std::ostringstream out;
+    out.precision(17);
+    out << (stamps ? "timestamp_s," : "") << "gyro_z_dps" << (truth.empty() ? "" : ",") << truth << '\n';
+    for (int n = 0; n < samples; ++n) {
+      const double right = amplitude_dps * std::sin(2.0 * std::numbers::pi * 0.1 * n / rate_hz);
+      if (stamps) out << n / rate_hz << ',';
+      out << right + bias_dps + noise_dps * normal(random);
+      if (!truth.empty() && n >= lost_from && n < lost_to) out << ",nan";
+      if (!truth.empty() && (n < lost_from || n >= lost_to)) out << ',' << right;
+      out << '\n';
+    }
+    return out.str();
+  }
+};
+
+class Evaluate : public Rig {
+ protected:
+  Result evaluate(const std::string& file, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"evaluate", path(file), "--axis", "z", "--lag", "0,16"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  /// @return the JSON
+  json figures(const std::string& file, std::vector<std::string> more = {"--no-turns"}) {
+    more.insert(more.end(), {"-o", path("out")});
+    const Result result = evaluate(file, more);
+    EXPECT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+    return result.exit_code == ExitCode::kDone ? json::parse(read_file("out/evaluation.json")) : json();
+  }
+  static json estimator(const json& all, const std::string& name, std::size_t row = 0) {
+    for (const json& one : all["rows"][row]["estimators"]) {
+      if (one["name"] == name) return one;
+    }
+    ADD_FAILURE() << "no estimator " << name;
+    return {};
+  }
+};
+
+// Noise and bias: sqrt(0.2^2 + 0.05^2); 4000 samples of white noise: 1.1 %, three of these.
+TEST_F(Evaluate, FindsTheErrorThatIsThere) {
+  write_file("in.csv", Recording{}.text());
+  const json all = figures("in.csv");
+  const json raw = estimator(all, "raw")["lags"][0];
+  EXPECT_NEAR(raw["rmse_dps"], std::hypot(0.2, 0.05), 0.007);
+  EXPECT_NEAR(raw["bias_dps"], 0.05, 3.0 * 0.2 / std::sqrt(4000.0));
+  EXPECT_NEAR(raw["scale_factor"], 1.0, 0.005);
+  EXPECT_EQ(raw["samples"], 4000);  // from 20 s on
+  EXPECT_NEAR(raw["angle_10s_rms_deg"], 0.5,
+              0.1);  // bias times 10 s; noise adds up to 0.2 sqrt(1000)/100 = 0.06
+  EXPECT_NEAR(estimator(all, "bias removed")["lags"][0]["rmse_dps"], 0.2, 0.007);
+  EXPECT_NEAR(all["rows"][0]["noise_std_dps"], 0.2, 0.007);
+}
+
+TEST_F(Evaluate, TunedFiltersBeatRawAndGainByLag) {
+  write_file("in.csv", Recording{}.text());
+  const json all = figures("in.csv");
+  const double raw = estimator(all, "raw")["lags"][0]["rmse_dps"];
+  for (const char* name : {"Butterworth", "moving average", "Savitzky-Golay", "zero-phase Butterworth"}) {
+    const json lags = estimator(all, name)["lags"];
+    EXPECT_LT(lags[1]["rmse_dps"], 0.6 * raw) << name;
+    EXPECT_LE(lags[1]["rmse_dps"], lags[0]["rmse_dps"]) << name;
+    EXPECT_FALSE(lags[1]["tuning"].get<std::string>().empty());
+  }
+  EXPECT_EQ(estimator(all, "improved")["kind"], "method");
+}
+
+TEST_F(Evaluate, WritesPageTablesAndTurns) {
+  write_file("in.csv", Recording{}.text());
+  const json all = figures("in.csv", {"--turn-repeats", "1", "--methods", "acf-emd,improved"});
+  EXPECT_EQ(all["rows"][0]["turns"].size(), 9U);    // three turns, two methods and the Butterworth
+  EXPECT_EQ(all["rows"][0]["guards"].size(), 27U);  // nine guards each
+  EXPECT_THAT(read_file("out/evaluation.html"), AllOf(HasSubstr("Evaluation on"), HasSubstr("</html>")));
+  EXPECT_THAT(read_file("out/evaluation.csv"),
+              HasSubstr("axis,noise_scale,noise_std_dps,name,kind,lag_bound_samples"));
+  EXPECT_THAT(read_file("out/guards.csv"), HasSubstr("slow-turn-gain"));
+  EXPECT_THAT(read_file("out/turns.csv"), HasSubstr("half_delay_s"));
+}
+
+TEST_F(Evaluate, PrintsTheTable) {
+  write_file("in.csv", Recording{}.text());
+  const Result result = evaluate("in.csv", {"--no-turns"});
+  EXPECT_EQ(result.exit_code, ExitCode::kDone);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("RMSE, deg/s, by lag"), HasSubstr("Butterworth *"),
+                                HasSubstr("swing-gain"), HasSubstr("tuned on the truth")));
+}
+
+TEST_F(Evaluate, AddsTheNoiseOfAStillRecordingAtEachScale) {
+  write_file("in.csv", Recording{.noise_dps = 3.0}.text());
+  write_file("still.csv",
+             Recording{.bias_dps = 1.0, .amplitude_dps = 0.0, .stamps = false, .truth = ""}.text());
+  const json all = figures(
+      "in.csv", {"--no-turns", "--noise", path("still.csv"), "--noise-scale", "0.5,2", "--from", "0"});
+  ASSERT_EQ(all["rows"].size(), 2U);
+  // The recording's own noise and the still one's mean play no part; 6000 samples: 0.9 %, three of these.
+  EXPECT_NEAR(estimator(all, "raw", 0)["lags"][0]["rmse_dps"], 0.1, 0.003);
+  EXPECT_NEAR(estimator(all, "raw", 1)["lags"][0]["rmse_dps"], 0.4, 0.012);
+  EXPECT_NEAR(estimator(all, "raw", 1)["lags"][0]["bias_dps"], 0.0, 1e-6);
+}
+
+TEST_F(Evaluate, TakesTheSignalItselfForTheTruth) {
+  write_file("in.csv", Recording{.noise_dps = 0.0, .truth = ""}.text());
+  write_file("still.csv", Recording{.amplitude_dps = 0.0, .truth = ""}.text());
+  const json all = figures("in.csv", {"--no-turns", "--signal-is-truth", "--noise", path("still.csv")});
+  EXPECT_NEAR(estimator(all, "raw")["lags"][0]["rmse_dps"], 0.2, 0.007);
+}
+
+TEST_F(Evaluate, TurnsTheTruthIntoTheSensorsFrame) {
+  write_file("in.csv", Recording{.truth = "ref_gyro_x_dps"}.text());
+  EXPECT_NEAR(
+      estimator(figures("in.csv", {"--no-turns", "--truth-axes", "z,y,x"}), "raw")["lags"][0]["rmse_dps"],
+      0.206, 0.007);
+  // Against minus itself: sqrt(0.2^2 + 0.05^2 + (2 5)^2 / 2).
+  EXPECT_NEAR(
+      estimator(figures("in.csv", {"--no-turns", "--truth-axes=z,y,-x"}), "raw")["lags"][0]["rmse_dps"],
+      7.074, 0.02);
+}
+
+TEST_F(Evaluate, CountsWhatTheTruthDoesNotKnow) {
+  write_file("in.csv", Recording{.lost_from = 3000, .lost_to = 3100}.text());
+  const json raw = estimator(figures("in.csv"), "raw")["lags"][0];
+  EXPECT_EQ(raw["lost_truth_samples"], 100);
+  EXPECT_EQ(raw["samples"], 3900);
+}
+
+TEST_F(Evaluate, SaysWhatIsWrong) {
+  struct Case {
+    Recording recording;
+    std::vector<std::string> more;
+    int exit_code;
+    const char* words;
+  };
+  write_file("fast.csv", Recording{.rate_hz = 200.0, .amplitude_dps = 0.0, .truth = ""}.text());
+  write_file("tiny.csv", Recording{.samples = 50, .amplitude_dps = 0.0, .truth = ""}.text());
+  const std::string fast = path("fast.csv");
+  const std::string tiny = path("tiny.csv");
+  const std::vector<Case> cases = {
+      {{.truth = ""}, {}, ExitCode::kFileTrouble, "no truth to compare with"},
+      {{}, {"--truth-columns", "gt_"}, ExitCode::kFileTrouble, "expected columns gt_x_UNIT"},
+      {{.lost_from = 2000, .lost_to = 6000},
+       {},
+       ExitCode::kFileTrouble,
+       "is not known between samples 2000 and 6000"},
+      {{.lost_from = 0, .lost_to = 6000}, {}, ExitCode::kFileTrouble, "no truth to compare with"},
+      {{.samples = 50}, {}, ExitCode::kFileTrouble, "holds 50 good samples"},
+      {{.stamps = false}, {}, ExitCode::kFileTrouble, "--rate"},
+      {{}, {"--axis", "x"}, ExitCode::kFileTrouble, "no truth"},
+      {{}, {"--noise", fast}, ExitCode::kFileTrouble, "nothing is resampled"},
+      {{}, {"--noise", tiny}, ExitCode::kFileTrouble, "holds 50 good samples"},
+      {{}, {"--noise", path("none.csv")}, ExitCode::kFileTrouble, "none.csv"},
+      {{}, {"--signal-is-truth"}, ExitCode::kWrongUsage, "needs --noise"},
+      {{}, {"--noise-scale", "2"}, ExitCode::kWrongUsage, "need --noise"},
+      {{}, {"--from", "5950"}, ExitCode::kWrongUsage, "at least 100"},
+      {{}, {"--from", "soon"}, ExitCode::kWrongUsage, "expected samples, as 2400"},
+      {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "a quarter of denoise.window_samples"},
+      {{}, {"--methods", "magic"}, ExitCode::kWrongUsage, "magic"},
+      {{}, {"-o", path("in.csv")}, ExitCode::kFileTrouble, "in.csv"},
+  };
+  for (const Case& one : cases) {
+    write_file("in.csv", one.recording.text());
+    const Result result = evaluate("in.csv", one.more);
+    EXPECT_EQ(result.exit_code, one.exit_code) << one.words << '\n' << result.err;
+    EXPECT_THAT(result.err, HasSubstr(one.words));
+  }
+}
+
+TEST_F(Evaluate, GivesTheSameNumbersTwice) {
+  write_file("in.csv", Recording{.samples = 3000}.text());
+  EXPECT_EQ(evaluate("in.csv", {"--turn-repeats", "1"}).out, evaluate("in.csv", {"--turn-repeats", "1"}).out);
+}
+
+}  // namespace
+}  // namespace gyrod::testing
