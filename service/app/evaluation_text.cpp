@@ -29,6 +29,12 @@ std::string fixed(double value, int decimals) {
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
   return text.data();
 }
+/// 0.01, 3, 0.0936
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
 std::string fixed(const std::optional<double>& value, int decimals, double factor = 1.0) {
   return value ? fixed(factor * *value, decimals) : "-";
 }
@@ -44,8 +50,7 @@ std::string head(const Evaluation& evaluation) {
 
 std::string row_name(const JudgedRow& row) {
   return "axis " + row.axis + ", noise " + fixed(row.noise_std_dps, 3) + " deg/s" +
-         (row.noise_scale == 1.0 ? std::string()
-                                 : " (scaled by " + report::number_text(row.noise_scale, 3) + ")") +
+         (row.noise_scale == 1.0 ? std::string() : " (scaled by " + short_number(row.noise_scale) + ")") +
          ", motion " + fixed(row.truth_std_dps, 3) + " deg/s";
 }
 
@@ -92,9 +97,7 @@ std::string guards_table(const JudgedRow& row) {
     const bool gain =
         first.kind == core::GuardKind::kSlowTurnGain || first.kind == core::GuardKind::kSwingGain ||
         first.kind == core::GuardKind::kScaleFactor || first.kind == core::GuardKind::kVibrationGain;
-    text +=
-        right((gain ? "1 +- " : "") + report::number_text(row.guards.front().guards[i].limit, 3), kWidth) +
-        "\n";
+    text += right((gain ? "1 +- " : "") + short_number(row.guards.front().guards[i].limit), kWidth) + "\n";
   }
   return text;
 }

@@ -2,7 +2,7 @@
 // Builds the page of an evaluation from the data that stand in it: evaluation.json, word for word.
 (() => {
   const { element, single, kSchemeColours } = reportFigures;
-  const { number } = gyrodCharts;
+  const { number, tick } = gyrodCharts;
   const evaluation = JSON.parse(document.getElementById("data").textContent);
   const byId = (id) => document.getElementById(id);
   const kColours = { ...kSchemeColours, "bias removed": "--raw", Butterworth: "--noise", "Savitzky-Golay": "--mixed", "zero-phase Butterworth": "--signal" };
@@ -45,7 +45,7 @@
     place.append(element("span", rich.text, rich.className));
   }
 
-  const rowName = (row) => `${row.axis} axis${evaluation.rows.some((r) => r.noise_scale !== 1) ? `, noise × ${number(row.noise_scale, 2)}` : ""}`;
+  const rowName = (row) => `${row.axis} axis${evaluation.rows.some((r) => r.noise_scale !== 1) ? `, noise × ${tick(row.noise_scale)}` : ""}`;
   const star = (estimator) => (kStarred.has(estimator.kind) ? `${estimator.name} *` : estimator.name);
   const nameCell = (estimator) => ({ text: star(estimator), colour: kDrawn.has(estimator.name) || estimator.kind === "method" ? colourOf(estimator.name) : undefined });
   const last = (estimator) => estimator.lags.at(-1);
@@ -94,11 +94,13 @@
     const made = card(parent, "Errors");
     const lags = row.estimators[0].lags.map((l) => l.lag_bound_samples);
     const drawn = row.estimators.filter((e) => e.kind === "method" || kDrawn.has(e.name));
+    const worst = Math.max(...drawn.filter((e) => e.name !== "raw").map((e) => e.lags[0].rmse_dps));
+    const far = (e) => e.name === "raw" && last(e).rmse_dps > 1.5 * worst;
     if (lags.length > 1) {
-      single(made, `RMSE by lag, ${rowName(row)}`, "* tuned on the truth. The other filters stand in the table.", {
+      single(made, `RMSE by lag, ${rowName(row)}`, `* tuned on the truth. The other filters stand in the table.${drawn.some(far) ? " Raw is far above and hidden: click its name." : ""}`, {
         x: { label: "lag, samples", whole: true },
         y: { label: "RMSE, deg/s" },
-        series: drawn.map((e) => ({ label: star(e), colour: colourOf(e.name), width: e.kind === "method" ? 2.2 : 1.4, points: e.kind === "method" || e.kind === "filter" })),
+        series: drawn.map((e) => ({ label: star(e), colour: colourOf(e.name), show: !far(e), width: e.kind === "method" ? 2.2 : 1.4, points: e.kind === "method" || e.kind === "filter" })),
         data: [lags, ...drawn.map((e) => e.lags.map((l) => l.rmse_dps))],
       });
     }
@@ -147,7 +149,7 @@
     const names = [...new Set(row.guards.map((g) => g.name))];
     const find = (name, guard) => row.guards.find((g) => g.name === name && g.guard === guard);
     table(made, `What an estimate must not do, lag ${evaluation.own_lag_samples}, ${rowName(row)}`, ["guard", ...names.map((n) => (n === "Butterworth" ? "Butterworth *" : n)), "limit"],
-      Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${number(find(names[0], guard).limit, 3)}`] })), names.length + 2);
+      Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${tick(Number(find(names[0], guard).limit.toPrecision(3)))}`] })), names.length + 2);
   }
 
   function turnsCard(parent, row) {
