@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,14 +10,12 @@
 #include "app/command.hpp"
 #include "app/evaluated_methods.hpp"
 #include "app/evaluation.hpp"
+#include "app/evaluation_folder.hpp"
 #include "app/evaluation_report.hpp"
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
 #include "app/progress_bar.hpp"
 #include "files/file_error.hpp"
-#include "files/output_file.hpp"
-#include "report/csv.hpp"
-#include "report/page.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -104,36 +101,6 @@ void check_truth_in(const EvaluationRows& rows, core::SampleRange range) {
                            std::to_string(range.begin) + " and " + std::to_string(range.end));
   }
 }
-
-class EvaluationFolder {
- public:
-  explicit EvaluationFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) throw files::FileError(folder_.string() + ": the folder cannot be made: " + error.message());
-    // Where the page cannot be written, that is better known before the work than after.
-    const files::OutputFile probe(folder_ / "evaluation.html");
-  }
-
-  void write(const report::Json& evaluation) const {
-    write("evaluation.json", report::file_text(evaluation));
-    write("evaluation.csv", report::table_csv(estimator_rows(evaluation)));
-    write("guards.csv", report::table_csv(guard_rows(evaluation)));
-    const report::Json turns = turn_rows(evaluation);
-    if (!turns.empty()) write("turns.csv", report::table_csv(turns));
-    const std::string title = "Evaluation on " + evaluation.at("record").at("name").get<std::string>();
-    write("evaluation.html", report::evaluation_page(title, evaluation));
-  }
-
- private:
-  void write(const std::string& name, const std::string& text) const {
-    files::OutputFile file(folder_ / name);
-    file.write(text);
-    file.close();
-  }
-
-  std::filesystem::path folder_;
-};
 
 EvaluationRows load(const EvaluateFlags& flags, Interrupt& interrupt) {
   if (flags.input.recording == "-") interrupt.let_through();

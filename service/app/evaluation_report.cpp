@@ -75,6 +75,7 @@ Json guards_json(const JudgedRow& row) {
                          {"value", number(guard.value)},
                          {"standard_error", number(guard.standard_error)},
                          {"limit", guard.limit},
+                         {"group_delay_samples", number(guard.group_delay_samples)},
                          {"reason", guard.reason}});
     }
   }

@@ -141,7 +141,9 @@
 
   function verdictCell(guard) {
     if (guard.verdict === "not applicable") return { text: guard.value === null ? `– ${guard.reason}` : `(${number(guard.value)}) ${guard.reason}`, className: "soft" };
-    return { text: `${number(guard.value)} ${guard.verdict === "pass" ? "✓" : "✗ fails"}`, className: guard.verdict === "pass" ? "class-signal" : "class-noise" };
+    const late = guard.group_delay_samples;
+    const delay = late !== null && Math.abs(late) >= 0.05 ? `, ${number(Math.abs(late), 2)} samples ${late > 0 ? "late" : "early"}` : "";
+    return { text: `${number(guard.value)} ${guard.verdict === "pass" ? "✓" : "✗ fails"}${delay}`, className: guard.verdict === "pass" ? "class-signal" : "class-noise" };
   }
 
   function guardsCard(parent, row) {

@@ -29,7 +29,7 @@ const std::vector<Room>& rooms() {
       {"core/joint",
        {"core/signal", "core/emd", "core/denoise", "core/noise"},
        {"Eigen/", "unsupported/Eigen/"}},
-      {"core/evaluation", {"core/signal"}, {"Eigen/"}},
+      {"core/evaluation", {}, {"Eigen/"}},
       {"stream", {"core/"}, {}},
       {"bus", {"core/", "stream"}, {"dds/", "gyrod.h"}},
       {"monitor",

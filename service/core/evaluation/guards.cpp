@@ -59,8 +59,11 @@ Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& 
   const auto response = added_swing(method, plain, on, test.frequency_hz, test.amplitude_dps);
   if (!response)
     return not_applicable(test.kind, test.limit, "the judged samples hold no whole period of it");
-  const bool pass = std::abs(response->gain - 1.0) <= test.limit;
-  return {test.kind, verdict(pass), response->gain, response->standard_error, test.limit, ""};
+  Guard guard{test.kind,      verdict(std::abs(response->gain - 1.0) <= test.limit),
+              response->gain, response->standard_error,
+              test.limit,     ""};
+  guard.group_delay_samples = response->delay_samples;
+  return guard;
 }
 
 /// Means over one second each; NaN where a sample is not known.

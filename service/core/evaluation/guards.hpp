@@ -34,6 +34,8 @@ struct Guard {
   std::optional<double> standard_error;  ///< of the value, where it is known
   double limit = 0.0;                    ///< for gains: of |value - 1|
   std::string reason;                    ///< why it is not applicable
+  /// Of the three gains: how late the added sine comes out, samples; the group delay of an estimator that answers at once.
+  std::optional<double> group_delay_samples = std::nullopt;
 };
 
 /// "mean-preserved", ...

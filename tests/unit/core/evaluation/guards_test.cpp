@@ -143,6 +143,10 @@ TEST(Guards, AddedSwingMeasuresTheGroupDelayOfAFilter) {
                       }};
   const auto response = added_swing(method, method.run(drive.noisy), drive.guard_case(), 0.1, 5.0);
   EXPECT_NEAR(response->delay_samples, 3.0, 0.01);
+  const auto all = guards(method, method.run(drive.noisy), drive.guard_case());
+  EXPECT_DOUBLE_EQ(
+      std::ranges::find(all, GuardKind::kSlowTurnGain, &Guard::kind)->group_delay_samples.value_or(0.0),
+      response->delay_samples);
 }
 
 }  // namespace
