@@ -19,7 +19,7 @@ OfflineDenoiser::OfflineDenoiser(const settings::Settings& settings, RowHandler&
     : handler_(handler),
       summary_(summary),
       estimate_(estimate),
-      engine_(offline_engine_options(settings), method(settings.denoise), *this, clock_that_stands_still) {}
+      engine_(offline_engine_options(settings), method(settings), *this, clock_that_stands_still) {}
 
 void OfflineDenoiser::push(files::RecordingRow& row) {
   waiting_.push_back({std::move(row.text), row.sample.rate_radps, true});

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <thread>
-#include <variant>
 
 #include "app/version.hpp"
+#include "stream/joint_method.hpp"
 #include "stream/paper_method.hpp"
 
 namespace gyrod::app {
@@ -71,17 +71,22 @@ core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings
   return options;
 }
 
-stream::MethodFactory method(const settings::DenoiseSettings& settings) {
-  switch (settings.method) {
-    case settings::Method::kPaper:
-    case settings::Method::kJoint:  // refused by settings/cross_check
-      break;
-  }
-  return stream::paper_method(denoiser_options(settings));
+core::JointOptions joint_options(const settings::Settings& settings) {
+  core::JointOptions options;
+  options.emd.sifts = settings.denoise.sifts;
+  options.emd.boundary = settings.denoise.boundary;
+  options.hop_samples = settings.engine.hop_samples;
+  return options;
 }
 
-bool is_model_method(const settings::DenoiseSettings& settings) {
-  return std::holds_alternative<stream::ModelMethodFactory>(method(settings));
+stream::MethodFactory method(const settings::Settings& settings) {
+  const settings::DenoiseSettings& denoise = settings.denoise;
+  if (denoise.method == settings::Method::kPaper) return stream::paper_method(denoiser_options(denoise));
+  return stream::joint_method(joint_options(settings), denoise.max_signal_hz);
+}
+
+bool is_model_method(const settings::DenoiseSettings& settings) noexcept {
+  return settings.method == settings::Method::kJoint;
 }
 
 monitor::MonitorOptions monitor_options(const settings::MonitorSettings& settings) {

@@ -3,6 +3,7 @@
 
 #include "bus/bus_options.hpp"
 #include "core/denoise/denoiser.hpp"
+#include "core/joint/joint_options.hpp"
 #include "monitor/monitor.hpp"
 #include "settings/settings.hpp"
 #include "stream/engine.hpp"
@@ -21,9 +22,10 @@ namespace gyrod::app {
 [[nodiscard]] stream::EngineOptions offline_engine_options(const settings::Settings& settings);
 
 [[nodiscard]] core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings);
-[[nodiscard]] stream::MethodFactory method(const settings::DenoiseSettings& settings);
+[[nodiscard]] core::JointOptions joint_options(const settings::Settings& settings);
+[[nodiscard]] stream::MethodFactory method(const settings::Settings& settings);
 /// Whether it is a model method: one that also estimates without look-ahead.
-[[nodiscard]] bool is_model_method(const settings::DenoiseSettings& settings);
+[[nodiscard]] bool is_model_method(const settings::DenoiseSettings& settings) noexcept;
 [[nodiscard]] monitor::MonitorOptions monitor_options(const settings::MonitorSettings& settings);
 
 }  // namespace gyrod::app

@@ -39,7 +39,7 @@ class Collector final : public stream::Sink {
 Rates windowed(const files::Record& record, const settings::Settings& settings) {
   Rates rates = record.gyro_radps;
   Collector collector(rates);
-  stream::Engine engine(offline_engine_options(settings), method(settings.denoise), collector,
+  stream::Engine engine(offline_engine_options(settings), method(settings), collector,
                         clock_that_stands_still);
   const double period_ns = 1e9 / record.sample_rate_hz;
   for (std::size_t n = 0; n < record.size(); ++n) {

@@ -65,7 +65,7 @@ Service::Service(const settings::Settings& settings)
       domain_(settings.bus.domain, settings.bus.network),
       publisher_(domain_, live_bus_options(settings)),
       release_(publisher_, settings.bus.output.history_depth),
-      engine_(live_engine_options(settings), method(settings.denoise), release_),
+      engine_(live_engine_options(settings), method(settings), release_),
       feed_(engine_),
       subscriber_(domain_, bus_options(settings.bus), feed_) {
   if (!settings.monitor.enabled) return;

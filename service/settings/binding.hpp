@@ -38,6 +38,7 @@ void visit_algorithm(Settings& settings, Visit& visit) {
   visit("denoise.sifts", settings.denoise.sifts);
   visit("denoise.boundary", settings.denoise.boundary);
   visit("denoise.max_ar_order", settings.denoise.max_ar_order);
+  visit("denoise.max_signal_hz", settings.denoise.max_signal_hz);
   visit("noise.source", settings.noise.source);
   visit("noise.calibrations", settings.noise.calibrations);
   visit("noise.state_file", settings.noise.state_file);

@@ -45,7 +45,6 @@ class CrossCheck {
   void check_method() {
     const bool is_joint = settings_.denoise.method == Method::kJoint;
     const std::string name(name_of(settings_.denoise.method));
-    require(!is_joint, "denoise.method", name, "\"paper\": this version has no other", {});
     require(!is_joint || settings_.engine.lag_samples <= stream::kMaxModelLagSamples, "denoise.lag_samples",
             settings_.engine.lag_samples,
             "at most " + std::to_string(stream::kMaxModelLagSamples) + " where denoise.method is \"" + name +

@@ -16,7 +16,7 @@ namespace gyrod::settings {
 enum class Reliability : std::uint8_t { kReliable, kBestEffort };
 enum class Method : std::uint8_t {
   kPaper,
-  kJoint,  ///< a model method
+  kJoint,  ///< the two-speed estimator, a model method
 };
 enum class Screening : std::uint8_t { kWindowed, kPaper };
 /// Where the level of a sensor's own noise comes from.
@@ -67,6 +67,8 @@ struct DenoiseSettings {
   int sifts = 10;
   core::BoundaryRule boundary = core::BoundaryRule::kMirror;
   std::size_t max_ar_order = 6;
+  /// What is faster counts as noise, Hz; 0: nothing does.
+  double max_signal_hz = 0.0;
 };
 
 struct NoiseSettings {

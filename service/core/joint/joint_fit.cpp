@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/denoise/noise_line.hpp"
+#include "core/joint/tone.hpp"
 #include "core/signal/moments.hpp"
 
 namespace gyrod::core {
@@ -50,10 +51,13 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   report.mean = mean(window);
   centred_.resize(window.size());
   for (std::size_t n = 0; n < window.size(); ++n) centred_[n] = window[n] - report.mean;
-  decompose(noise, report);
-  if (!is_usable(noise_)) return;
   tapers_.spectrum(centred_, periodogram_);
-  for (double& power : periodogram_) power /= unit_;
+  judge_noise(noise, model.noise, report);
+  const Tone tone = find_tone(periodogram_);
+  report.tone_frequency_cycles = tone.frequency_cycles;
+  report.tone_amplitude = tone.amplitude * std::sqrt(unit_);
+  if (!is_usable(noise_)) return;
+  decompose(report);
   whittle_.observe(periodogram_, noise_);
   whittle_.iterate(full_, options_.pruned_iterations);
   pruned_ = full_;
@@ -62,22 +66,41 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   whittle_.iterate(pruned_, options_.pruned_iterations);
   model.mean = report.mean;
   design(model);
+  report.modes = full_.size();
+  report.output_noise = std::sqrt(model.member(MemberKind::kFull).error_variance(0));
+}
+
+/// What the noise is taken for: as believed, its level corrected by what the windows so far have shown; or, where nothing is believed,
+/// white, at the level of the quietest band.
+void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, WindowReport& report) noexcept {
+  const bool known = is_usable(believed);
+  unit_ = known ? noise_variance(believed) : 1.0;
+  noise_ = known ? scaled(believed, 1.0 / std::sqrt(unit_)) : white_noise(1.0);
+  const double share = static_cast<double>(options_.hop_samples) / static_cast<double>(max_samples_);
+  for (double& power : periodogram_) power /= unit_;
+  whittle_.observe(periodogram_, noise_);
+  tracker.observe(periodogram_, whittle_.noise(), known, share);
+  if (known) {
+    noise_ = scaled(noise_, std::sqrt(tracker.level()));
+  } else {
+    unit_ = tracker.floor();
+    if (is_usable(white_noise(unit_))) {
+      for (double& power : periodogram_) power /= unit_;
+    } else {
+      noise_ = {};
+    }
+  }
+  report.noise_floor = std::sqrt(unit_ * noise_variance(noise_));
 }
 
 /// IMF by IMF: its figures, and a mode to start from. What is slower than T_slow is gathered with the residue.
-void JointFit::decompose(const NoiseModel& noise, WindowReport& report) noexcept {
+void JointFit::decompose(WindowReport& report) noexcept {
   const std::span<double> imf{imf_.data(), centred_.size()};
   const std::span<double> slow{slow_.data(), centred_.size()};
   std::ranges::fill(slow, 0.0);
   full_.clear();
   emd_.start(centred_);
-  noise_ = noise;
-  unit_ = noise_variance(noise);
   while (emd_.next_imf(imf)) {
-    if (report.imf_count == 0 && !is_usable(noise)) {
-      unit_ = white_noise_variance(variance(imf));
-      noise_ = white_noise(unit_);
-    }
     describe(imf, report);
     const ImfFigures& figures = report.imf[report.imf_count - 1];
     if (figures.imf_class == ImfClass::kSignal || full_.size() + 1 >= kMaxModes) {
@@ -86,9 +109,6 @@ void JointFit::decompose(const NoiseModel& noise, WindowReport& report) noexcept
       start_mode(imf, figures);
     }
   }
-  report.noise_floor = std::sqrt(unit_);
-  if (!is_usable(noise_)) return;
-  noise_ = scaled(noise_, 1.0 / report.noise_floor);
   const auto residue = emd_.residue();
   for (std::size_t n = 0; n < slow.size(); ++n) slow[n] += residue[n];
   ImfFigures slow_figures;
@@ -103,7 +123,7 @@ void JointFit::describe(std::span<const double> imf, WindowReport& report) const
   figures = {};
   figures.energy = variance(imf);
   figures.mean_period_samples = mean_period(imf);
-  if (unit_ > 0.0) figures.excess = figures.energy / (unit_ * noise_line_energy(index));
+  figures.excess = figures.energy / (report.noise_floor * report.noise_floor * noise_line_energy(index));
   if (figures.mean_period_samples > options_.slow_period_samples) return;
   report.k = index;
   figures.imf_class = figures.excess < options_.least_excess ? ImfClass::kNoise : ImfClass::kMixed;
@@ -152,8 +172,9 @@ void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
 BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
   BlockSet set;
   for (const SpectralMode& mode : modes.modes()) {
-    FilterBlock block{
-        .order = kModeOrder, .drive = mode.drive * (mode.slow ? 1.0 : drive_ratio), .signal = true};
+    FilterBlock block{.order = kModeOrder,
+                      .drive = mode.drive * (mode.slow ? 1.0 : drive_ratio),
+                      .signal = is_signal(mode)};
     double factor = 1.0;
     for (std::size_t i = 0; i < kModeOrder; ++i) {
       factor *= options_.pole_factor;
@@ -163,6 +184,10 @@ BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept 
   }
   if (noise_.colour_order > 0) set.add(colour_block(noise_));
   return set;
+}
+
+bool JointFit::is_signal(const SpectralMode& mode) noexcept {
+  return mode.slow || max_signal_cycles_ >= 0.5 || whittle_.centre_cycles(mode) <= max_signal_cycles_;
 }
 
 BlockSet JointFit::with_agile(const FilterBlock& agile) noexcept {

@@ -29,8 +29,12 @@ class JointFit {
   /// @throws std::invalid_argument for an option outside its range
   explicit JointFit(std::size_t max_samples, const JointOptions& options = {});
 
+  /// From here on modes whose power lies above this frequency, cycles per sample, count as noise: they are part of what the filter
+  /// expects, and not of what it answers. One half or more (as at the start): all are signal.
+  void set_max_signal(double cycles) noexcept { max_signal_cycles_ = cycles; }
+
   /// @param window uniformly sampled, finite, any unit
-  /// @param noise  the channel's noise; where it is not usable, white noise of the level that IMF 1 stands for is taken
+  /// @param noise  the channel's noise; where it is not usable, white noise of the quietest band's level is taken
   /// @param model  receives the members; untouched where the window does not vary
   /// @param report receives mean, noise floor and the IMFs' figures
   /// @pre kMinSamples <= window.size() <= max_samples
@@ -38,12 +42,14 @@ class JointFit {
            WindowReport& report) noexcept;
 
  private:
-  void decompose(const NoiseModel& noise, WindowReport& report) noexcept;
+  void judge_noise(const NoiseModel& believed, NoiseTracker& tracker, WindowReport& report) noexcept;
+  void decompose(WindowReport& report) noexcept;
   void describe(std::span<const double> imf, WindowReport& report) const noexcept;
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
   void design(JointModel& model) noexcept;
   void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
+  [[nodiscard]] bool is_signal(const SpectralMode& mode) noexcept;
   [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
 
   JointOptions options_;
@@ -58,6 +64,7 @@ class JointFit {
   std::vector<double> periodogram_;
   NoiseModel noise_;   ///< of this window, in parts of unit_
   double unit_ = 1.0;  ///< variance of the noise
+  double max_signal_cycles_ = 1.0;
   ModeSet full_;
   ModeSet pruned_;
 };

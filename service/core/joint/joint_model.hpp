@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/joint/member_model.hpp"
+#include "core/joint/noise_tracker.hpp"
 
 namespace gyrod::core {
 
@@ -24,6 +25,8 @@ inline constexpr std::size_t kMembers = 6;
 struct JointModel {
   double mean = 0.0;  ///< of the window, the members' zero, in the data's unit
   std::array<MemberModel, kMembers> members{};
+  /// What the windows so far say about the noise.
+  NoiseTracker noise;
   /// Members that could not be made of the last window and keep what they had.
   std::size_t fallbacks = 0;
 

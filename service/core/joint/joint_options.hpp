@@ -21,6 +21,8 @@ struct JointOptions {
   double least_excess = 0.8;
   /// IMFs with longer mean periods than this join the slow mode, samples. Range 8..1e6.
   double slow_period_samples = 128.0;
+  /// Samples from one window to the next: how much of a window is new. Range 1..65536.
+  std::size_t hop_samples = 32;
   /// Recency-warped sine tapers that are averaged. Range 1..8.
   std::size_t tapers = 2;
   /// How strongly the tapers look at the newest samples; 0 looks at all alike. Range 0..20.
@@ -53,8 +55,6 @@ struct JointOptions {
   double correction_rate = 0.004;
   /// What the members' own variance is multiplied by: they do not know that their models are estimates. Range 1..10.
   double variance_factor = 1.3;
-  /// Angular frequency above which nothing is signal, radians per sample; pi or more: all frequencies may be signal.
-  double max_signal_radians = 4.0;
 };
 
 /// Largest hand_over_samples.

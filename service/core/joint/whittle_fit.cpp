@@ -92,6 +92,17 @@ double WhittleFit::log_likelihood(const ModeSet& modes) noexcept {
   return sum;
 }
 
+double WhittleFit::centre_cycles(const SpectralMode& mode) noexcept {
+  spectrum_of(mode, posterior_);
+  double power = 0.0;
+  double moment = 0.0;
+  for (std::size_t k = 0; k < bins_; ++k) {
+    power += posterior_[k];
+    moment += posterior_[k] * static_cast<double>(k);
+  }
+  return power > 0.0 ? 0.5 * moment / power / static_cast<double>(bins_ - 1) : 0.0;
+}
+
 SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool slow) const noexcept {
   assert(autocovariance.size() == kLags);
   std::array<double, kLags> r{};

@@ -27,6 +27,9 @@ class WhittleFit {
   /// @pre periodogram has transform_samples / 2 + 1 bins; is_usable(noise)
   void observe(std::span<const double> periodogram, const NoiseModel& noise) noexcept;
 
+  /// The noise's spectrum at every bin, as observe() was told.
+  [[nodiscard]] std::span<const double> noise() const noexcept { return noise_; }
+
   /// Improves the modes. A mode that loses all its power has drive 0 and stays so.
   void iterate(ModeSet& modes, int iterations) noexcept;
 
@@ -35,6 +38,9 @@ class WhittleFit {
 
   /// ln L of these modes, up to a constant.
   [[nodiscard]] double log_likelihood(const ModeSet& modes) noexcept;
+
+  /// Centre of gravity of a mode's spectrum, cycles per sample.
+  [[nodiscard]] double centre_cycles(const SpectralMode& mode) noexcept;
 
   /// The mode whose autocovariances r_0 .. r_kModeOrder are given.
   [[nodiscard]] SpectralMode mode_of(std::span<const double> autocovariance, bool slow) const noexcept;

@@ -1,0 +1,96 @@
+#include "stream/joint_method.hpp"
+
+#include <numbers>
+
+#include "core/joint/joint_fit.hpp"
+#include "core/joint/kalman_bank.hpp"
+
+namespace gyrod::stream {
+namespace {
+
+/// Beyond these the innovations are not those of the model: 0.6 to 0.8 is what a level 20 % too high looks like.
+constexpr double kLeastInnovation = 0.7;
+constexpr double kLargestInnovation = 2.0;
+
+struct JointState final : Model {
+  core::JointModel joint;
+};
+
+class JointMethod final : public ModelMethod {
+ public:
+  JointMethod(std::size_t window_samples, const core::JointOptions& options, double max_signal_hz)
+      : fit_(window_samples, options), max_signal_hz_(max_signal_hz) {}
+
+  [[nodiscard]] std::size_t min_samples() const noexcept override { return core::JointFit::kMinSamples; }
+
+  void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept override {
+    const bool known = window.noise_source != NoiseSource::kNone;
+    const bool limited = max_signal_hz_ > 0.0 && window.sample_rate_hz > 0.0;
+    fit_.set_max_signal(limited ? max_signal_hz_ / window.sample_rate_hz : 1.0);
+    fit_.fit(window.samples, known ? window.noise : core::NoiseModel{}, static_cast<JointState&>(model).joint,
+             report);
+  }
+
+ private:
+  core::JointFit fit_;
+  double max_signal_hz_;
+};
+
+class JointFilter final : public SampleFilter {
+ public:
+  JointFilter(const core::JointOptions& options, std::size_t lag_samples) : bank_(options, lag_samples) {}
+
+  void use(const Model& model) noexcept override {
+    const core::JointModel& joint = static_cast<const JointState&>(model).joint;
+    bank_.use(joint);
+    wrong_noise_ = joint.noise.disagrees();
+    fit_.fallbacks += joint.fallbacks;
+  }
+
+  Estimates step(double sample) noexcept override {
+    const core::BankEstimates answer = bank_.step(sample);
+    judge();
+    return {estimate(answer.realtime), estimate(answer.denoised)};
+  }
+
+  [[nodiscard]] Estimate held(std::size_t age) const noexcept override { return estimate(bank_.held(age)); }
+  [[nodiscard]] ModelFit model_fit() const noexcept override { return fit_; }
+
+  void reset() noexcept override {
+    bank_.reset();
+    fit_ = {};
+    wrong_noise_ = false;
+  }
+
+ private:
+  static Estimate estimate(const core::BankEstimate& answer) noexcept {
+    return {answer.rate, answer.variance};
+  }
+
+  void judge() noexcept {
+    fit_.normalised_innovation = bank_.normalised_innovation();
+    const bool misfit = wrong_noise_ || fit_.normalised_innovation < kLeastInnovation ||
+                        fit_.normalised_innovation > kLargestInnovation;
+    if (misfit && !fit_.misfit) ++fit_.misfits;
+    fit_.misfit = misfit;
+  }
+
+  core::KalmanBank bank_;
+  ModelFit fit_;
+  bool wrong_noise_ = false;
+};
+
+}  // namespace
+
+ModelMethodFactory joint_method(const core::JointOptions& options, double max_signal_hz) {
+  return {
+      .method =
+          [options, max_signal_hz](std::size_t window_samples) {
+            return std::make_unique<JointMethod>(window_samples, options, max_signal_hz);
+          },
+      .model = [] { return std::make_unique<JointState>(); },
+      .filter =
+          [options](std::size_t lag_samples) { return std::make_unique<JointFilter>(options, lag_samples); }};
+}
+
+}  // namespace gyrod::stream
