@@ -102,6 +102,16 @@ void check_truth_in(const EvaluationRows& rows, core::SampleRange range) {
   }
 }
 
+void check_lags(const EvaluationOptions& options) {
+  for (const std::string& name : options.methods) {
+    const std::size_t most = largest_lag(name, options.settings);
+    const std::size_t given = std::max(options.lag_samples.back(), options.settings.engine.lag_samples);
+    if (given <= most) continue;
+    throw CLI::ValidationError("--lag", "or denoise.lag_samples is " + std::to_string(given) + "; " + name +
+                                            " takes at most " + std::to_string(most));
+  }
+}
+
 EvaluationRows load(const EvaluateFlags& flags, Interrupt& interrupt) {
   if (flags.input.recording == "-") interrupt.let_through();
   ProgressBar bar("reading");
@@ -123,12 +133,7 @@ int evaluate_or_stop(const EvaluateFlags& flags, Interrupt& interrupt) {
   options.lag_samples.erase(repeated.begin(), repeated.end());
   options.turns = !flags.no_turns;
   options.turn_repeats = flags.turn_repeats;
-  const std::size_t most = options.settings.engine.window_samples / 4;
-  if (options.lag_samples.back() > most) {
-    throw CLI::ValidationError("--lag", "is " + std::to_string(options.lag_samples.back()) +
-                                            "; expected at most a quarter of denoise.window_samples, " +
-                                            std::to_string(most));
-  }
+  check_lags(options);
   std::optional<EvaluationFolder> folder;
   if (!flags.folder.empty()) folder.emplace(flags.folder);
 
@@ -235,7 +240,7 @@ void add_noise(CLI::App& command, EvaluateFlags& flags) {
 void add_methods(CLI::App& command, EvaluateFlags& flags) {
   command
       .add_option("--methods", flags.methods,
-                  "direct, emd, acf-emd, improved, separated by commas [improved]")
+                  "direct, emd, acf-emd, improved, joint, realtime, separated by commas [improved]")
       ->type_name("LIST")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -3,14 +3,19 @@
 #include <numbers>
 #include <utility>
 
+#include "app/joint_contender.hpp"
 #include "app/record_denoiser.hpp"
 #include "core/denoise/scheme.hpp"
+#include "core/joint/joint_options.hpp"
+#include "core/noise/still_noise.hpp"
 #include "files/record.hpp"
 
 namespace gyrod::app {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr const char* kJoint = "joint";
+constexpr const char* kRealtime = "realtime";
 
 /// One axis as a recording.
 files::Record record_of(std::span<const double> noisy_dps, double rate_hz) {
@@ -29,6 +34,19 @@ core::JointPattern joints_of(const stream::EngineOptions& engine) {
   return {hop, (hop - engine.lag_samples % hop) % hop};
 }
 
+/// With the noise that the still samples show, if there are enough of them.
+core::Method two_speed_method(const std::string& name, const MethodContext& context) {
+  JointRun run;
+  run.window_samples = context.settings.engine.window_samples;
+  run.hop_samples = context.settings.engine.hop_samples;
+  run.lag_samples = context.lag_samples;
+  run.realtime = name == kRealtime;
+  if (const auto noise = core::still_noise(context.still_dps))
+    run.noise = core::scaled(*noise, core::kNoiseMargin);
+  const auto estimate = [run](std::span<const double> noisy_dps) { return joint_contender(run, noisy_dps); };
+  return {name, run.realtime ? 0 : context.lag_samples, estimate};
+}
+
 }  // namespace
 
 std::vector<std::string> evaluated_method_names() {
@@ -36,10 +54,17 @@ std::vector<std::string> evaluated_method_names() {
   for (const core::Scheme scheme : core::kAllSchemes) {
     if (scheme != core::Scheme::kRaw) names.emplace_back(core::name_of(scheme));
   }
+  names.emplace_back(kJoint);
+  names.emplace_back(kRealtime);
   return names;
 }
 
+std::size_t largest_lag(const std::string& name, const settings::Settings& settings) {
+  return name == kJoint || name == kRealtime ? core::kMaxLag : settings.engine.window_samples / 4;
+}
+
 core::Method evaluated_method(const std::string& name, const MethodContext& context) {
+  if (name == kJoint || name == kRealtime) return two_speed_method(name, context);
   settings::Settings settings = context.settings;
   settings.engine.lag_samples = context.lag_samples;
   const auto run = [name, settings, rate_hz = context.rate_hz](std::span<const double> noisy_dps) {

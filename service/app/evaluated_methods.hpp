@@ -20,10 +20,14 @@ struct MethodContext {
   std::span<const double> still_dps;
 };
 
-/// What --methods takes: "direct", "emd", "acf-emd", "improved".
+/// What --methods takes: "direct", "emd", "acf-emd", "improved"; "joint", the two-speed estimator with a lag, and "realtime", its answers at
+/// once.
 [[nodiscard]] std::vector<std::string> evaluated_method_names();
 
-/// @pre name is one of evaluated_method_names(); settings outlive the method. Its rates are in deg/s.
+/// Largest lag in samples that a method takes.
+[[nodiscard]] std::size_t largest_lag(const std::string& name, const settings::Settings& settings);
+
+/// @pre name is one of evaluated_method_names(); lag_samples <= largest_lag(); settings outlive the method. Its rates are in deg/s.
 [[nodiscard]] core::Method evaluated_method(const std::string& name, const MethodContext& context);
 
 }  // namespace gyrod::app

@@ -150,7 +150,8 @@ class RowJudge {
     JudgedEstimator estimator{name, EstimatorKind::kMethod, {}};
     for (const std::size_t lag : options_.lag_samples) {
       if (!steps_.next()) return;
-      estimator.lags.push_back({lag, lag, "", figures(method(name, lag).run(row_.noisy_dps))});
+      const core::Contender contender = method(name, lag).run(row_.noisy_dps);
+      estimator.lags.push_back({lag, contender.lag_samples, "", figures(contender)});
     }
     judged_.estimators.push_back(std::move(estimator));
   }

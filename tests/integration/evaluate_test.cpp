@@ -191,7 +191,7 @@ TEST_F(Evaluate, SaysWhatIsWrong) {
       {{}, {"--noise-scale", "2"}, ExitCode::kWrongUsage, "need --noise"},
       {{}, {"--from", "5950"}, ExitCode::kWrongUsage, "at least 100"},
       {{}, {"--from", "soon"}, ExitCode::kWrongUsage, "expected samples, as 2400"},
-      {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "a quarter of denoise.window_samples"},
+      {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "takes at most 256"},
       {{}, {"--methods", "magic"}, ExitCode::kWrongUsage, "magic"},
       {{}, {"-o", path("in.csv")}, ExitCode::kFileTrouble, "in.csv"},
   };

@@ -1,0 +1,26 @@
+/// The two-speed estimator on a record in memory.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/evaluation/contender.hpp"
+#include "core/noise/noise_model.hpp"
+
+namespace gyrod::app {
+
+/// How the estimator is run.
+struct JointRun {
+  std::size_t window_samples = 1024;
+  std::size_t hop_samples = 32;
+  std::size_t lag_samples = 16;  ///< at most core::kMaxLag
+  bool realtime = false;         ///< the answers at once, instead of those with the lag
+  /// The sensor's, in the record's unit; one that is not usable: the windows' own guess.
+  core::NoiseModel noise;
+};
+
+/// The model of the window that ends at sample n * hop is used from sample (n + 1) * hop on, as the stream does; windows at the beginning
+/// hold what there is.
+[[nodiscard]] core::Contender joint_contender(const JointRun& run, std::span<const double> noisy);
+
+}  // namespace gyrod::app
