@@ -1,5 +1,6 @@
 /// gyrod calibrate as a user runs it: the table, the file, and what it says of recordings that move.
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -68,7 +69,7 @@ TEST_F(CalibrateCommand, RefusesARecordingThatMovesAndSaysHowMuch) {
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("0.0 s of 65.0 s are at rest; of the rest"),
                     HasSubstr("expected 30 s at least"), HasSubstr("--all-still takes all of it as still")));
-  EXPECT_FALSE(exists("cal.json"));
+  EXPECT_FALSE(std::filesystem::exists(path("cal.json")));
 }
 
 TEST_F(CalibrateCommand, TakesThePartThatIsNamedOnTheUsersWord) {
