@@ -2,8 +2,10 @@
 //
 //   noise_model_study [DATA]      AR(8) + white from one minute and from ten against the spectrum of what follows
 //
+// and what the estimate of the noise costs a stationary smoother.
 // DATA is the folder of recordings, ../shared/data unless given.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "core/noise/standstill_learner.hpp"
 #include "core/noise/still_noise.hpp"
 #include "core/signal/periodogram.hpp"
 #include "files/record.hpp"
@@ -97,6 +100,62 @@ void print(const char* what, const std::optional<NoiseModel>& model, const Noise
               fit.line_at);
 }
 
+/// Error of the stationary Wiener smoother for motion of spectrum S under noise R, which believes in the noise of a model:
+///   mean over frequencies of h^2 R + (1 - h)^2 S,   h = S / (S + model).
+double wiener_error(const NoiseSpectrum& motion, const NoiseSpectrum& noise, const NoiseModel& model) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < motion.size(); ++k) {
+    const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / core::kNoiseSegment;
+    const double h = motion[k] / (motion[k] + core::noise_spectrum(model, w));
+    sum += h * h * noise[k] + (1.0 - h) * (1.0 - h) * motion[k];
+  }
+  return std::sqrt(sum / static_cast<double>(motion.size() - 1));
+}
+
+/// What each way to know the noise costs in the ten minutes after the first, in which the learner has stood still: the errors over that
+/// with a calibration from the recording's second half, the worst over the axes of the motion.
+void study_cost(const files::Record& still, const std::array<NoiseSpectrum, 3>& motion) {
+  const std::size_t minute = static_cast<std::size_t>(60.0 * still.sample_rate_hz);
+  const std::size_t half = still.size() / 2;
+  std::printf("%s: errors over that with the second half as calibration\n", still.name.c_str());
+  std::printf("   %-5s %10s %10s %10s %10s %10s %10s %10s\n", "axis", "standstill", "white", "level*0.8",
+              "level*0.9", "level*1.02", "level*1.1", "level*1.25");
+  core::StandstillLearner learner(still.sample_rate_hz);
+  for (std::size_t n = 0; n < minute; ++n)
+    learner.step({still.gyro_radps[0][n], still.gyro_radps[1][n], still.gyro_radps[2][n]});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Samples all = still.gyro_radps[axis];
+    const NoiseSpectrum noise = spectrum_of(all.subspan(minute, std::min(10 * minute, half - minute)));
+    const NoiseModel calibrated = *core::still_noise(all.subspan(half));
+    const auto worst = [&](const NoiseModel& model) {
+      double most = 0.0;
+      for (const NoiseSpectrum& one : motion)
+        most = std::max(most, wiener_error(one, noise, model) / wiener_error(one, noise, calibrated));
+      return most;
+    };
+    std::printf("   %-5c %10.4f %10.4f", "xyz"[axis], worst(learner.models()[axis]),
+                worst(core::white_noise(core::noise_variance(calibrated))));
+    for (const double factor : {0.8, 0.9, 1.02, 1.1, 1.25})
+      std::printf(" %10.4f", worst(core::scaled(calibrated, factor)));
+    std::printf("\n");
+  }
+}
+
+void cost(const std::filesystem::path& data) {
+  const auto drive = load(data / "wid_car_trial06_xsensdot_120hz.csv.gz");
+  std::array<NoiseSpectrum, 3> motion{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double> rate = drive.others.at(std::string("ref_gyro_") + "xyz"[axis] + "_dps");
+    // Between 12 and 56 s the car drives.
+    rate = std::vector<double>(rate.begin() + 1440, rate.begin() + 6720);
+    for (double& value : rate) value /= kDegPerRad;
+    motion[axis] = spectrum_of(rate);
+  }
+  for (const char* imu : {"imu1", "imu2", "imu4"})
+    study_cost(load(data / ("adis16405_" + std::string(imu) + "_static_100hz.csv.gz"), 100.0), motion);
+  study_cost(load(data / "mpu6050_static_10min_100hz.csv.gz", 100.0), motion);
+}
+
 void study_models(const files::Record& record) {
   const std::size_t minute = static_cast<std::size_t>(60.0 * record.sample_rate_hz);
   std::printf("%s, %.2f Hz\n   %-10s %8s %8s %9s %9s %9s %8s\n", record.name.c_str(), record.sample_rate_hz,
@@ -142,6 +201,8 @@ void models(const std::filesystem::path& data) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  models(argc > 1 ? argv[1] : "../shared/data");
+  const std::filesystem::path data = argc > 1 ? argv[1] : "../shared/data";
+  models(data);
+  cost(data);
   return 0;
 }

@@ -34,14 +34,17 @@ void add_up(RestDetector::Segments& sum, const RestDetector::Segments& more) noe
 
 }  // namespace
 
-RestDetector::RestDetector(double sample_rate_hz)
-    : block_samples_(
-          static_cast<std::size_t>(std::lround(std::max(kBlockSeconds * sample_rate_hz, kFewestInBlock)))),
-      even_ratio_(std::exp(kEvenDeviations *
-                           std::sqrt(2.0 / std::min(static_cast<double>(block_samples_), kMostEvenSamples)))),
-      periodogram_(kNoiseSegment) {
-  assert(sample_rate_hz > 0.0);
+RestDetector::RestDetector(double sample_rate_hz) : periodogram_(kNoiseSegment) {
   for (auto& samples : segment_) samples.resize(kNoiseSegment);
+  retime(sample_rate_hz);
+}
+
+void RestDetector::retime(double sample_rate_hz) noexcept {
+  assert(sample_rate_hz > 0.0);
+  const double samples = std::max(kBlockSeconds * sample_rate_hz, kFewestInBlock);
+  block_samples_ = static_cast<std::size_t>(std::lround(samples));
+  even_ratio_ = std::exp(kEvenDeviations * std::sqrt(2.0 / std::min(samples, kMostEvenSamples)));
+  interrupt();
 }
 
 bool RestDetector::step(const Triple& rate, const Triple* accelerometer) noexcept {

@@ -54,6 +54,9 @@ class RestDetector {
   /// A gap: what follows does not join what was.
   void interrupt() noexcept;
 
+  /// The sample rate turns out to be another: begins anew with it. Allocates nothing. @pre sample_rate_hz > 0
+  void retime(double sample_rate_hz) noexcept;
+
   [[nodiscard]] RestVerdict verdict() const noexcept { return verdict_; }
   /// Mean of the block variances, the unit of the rate squared; 0 for an axis that does not change.
   [[nodiscard]] const Triple& variance() const noexcept { return variance_; }
@@ -90,8 +93,8 @@ class RestDetector {
   [[nodiscard]] double wandering(const Window& window) const noexcept;
   void listen() noexcept;
 
-  std::size_t block_samples_;
-  double even_ratio_;
+  std::size_t block_samples_ = 0;
+  double even_ratio_ = 1.0;
   std::size_t inputs_ = 3;
   std::size_t in_block_ = 0;
   std::size_t blocks_ = 0;  ///< of this run, kBlocks at most

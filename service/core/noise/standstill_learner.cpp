@@ -47,11 +47,20 @@ bool is_good(const StandstillState& state) noexcept {
 }  // namespace
 
 StandstillLearner::StandstillLearner(double sample_rate_hz) : detector_(sample_rate_hz) {
+  retime(sample_rate_hz);
+}
+
+void StandstillLearner::retime(double sample_rate_hz) noexcept {
+  detector_.retime(sample_rate_hz);
   block_seconds_ = static_cast<double>(detector_.block_samples()) / sample_rate_hz;
   segment_seconds_ = static_cast<double>(kNoiseSegment / 2) / sample_rate_hz;
   least_segments_ = std::max(kFewestSegments, kFewestSeconds / segment_seconds_);
   most_segments_ = std::max(2.0 * kFewestSegments, kMemorySeconds / segment_seconds_);
+  at_rest_ = false;
+  forget();
+  state_ = {};
   state_.sample_rate_hz = sample_rate_hz;
+  other_seconds_ = 0.0;
 }
 
 void StandstillLearner::step(const Triple& rate, const Triple* accelerometer) noexcept {

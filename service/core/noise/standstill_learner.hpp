@@ -47,6 +47,10 @@ class StandstillLearner {
   /// A gap in the samples. What is learned stays.
   void interrupt() noexcept;
 
+  /// The sample rate turns out to be another, e.g. found from stamps after the channel was opened: begins anew with it, and forgets
+  /// what was learned. Allocates nothing. @pre sample_rate_hz > 0
+  void retime(double sample_rate_hz) noexcept;
+
   /// Whether the last eight blocks were at rest; known at the end of each block (RestDetector: one second, 100 samples at least).
   [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
   /// Rises with every change of models().
@@ -77,10 +81,10 @@ class StandstillLearner {
   void fit() noexcept;
   void forget() noexcept;
 
-  double block_seconds_;
-  double segment_seconds_;
-  double least_segments_;
-  double most_segments_;
+  double block_seconds_ = 0.0;
+  double segment_seconds_ = 0.0;
+  double least_segments_ = 0.0;
+  double most_segments_ = 0.0;
   RestDetector detector_;
   bool at_rest_ = false;
   std::uint64_t revision_ = 0;

@@ -170,6 +170,17 @@ TEST(StandstillLearner, RefusesAStateThatCannotBe) {
   }
 }
 
+TEST(StandstillLearner, BeginsAnewWithAnotherSampleRate) {
+  StandstillLearner learner(1000.0);
+  rest(learner, 100.0, 0.7, 23);
+  learner.retime(100.0);
+  EXPECT_FALSE(is_usable(learner.models()[0]));
+  rest(learner, 60.0, 0.35, 24);
+  StandstillLearner fresh(100.0);
+  rest(fresh, 60.0, 0.35, 24);
+  EXPECT_EQ(learner.state(), fresh.state());
+}
+
 TEST(StandstillLearner, LearnsTheAxesThatAreThere) {
   Axes axes = testing::still_axes(6000, 0.35, 22);
   axes[2].assign(6000, 0.0);
