@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestSamples = 3;
 constexpr std::size_t kMaxBridged = 16;
-constexpr std::string_view kAxisNames = "xyz";
+constexpr std::string_view kAxisLetters = "xyz";
 
 struct AccelerationUnit {
   const char* suffix;
@@ -74,7 +74,7 @@ std::vector<Source> sources_of(const files::Record& record, std::string_view axe
                                std::vector<std::string>& notes) {
   std::vector<Source> sources;
   for (const char axis : axes) {
-    const std::vector<double>& rate = record.gyro_radps[kAxisNames.find(axis)];
+    const std::vector<double>& rate = record.gyro_radps[kAxisLetters.find(axis)];
     if (rate.empty()) {
       throw files::FileError(record.name + ": has no column gyro_" + axis +
                              "_UNIT; choose other axes (--axis)");

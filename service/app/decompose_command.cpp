@@ -23,8 +23,6 @@
 namespace gyrod::app {
 namespace {
 
-constexpr std::array<const char*, stream::kAxes> kAxisNames = {"x", "y", "z"};
-
 struct DecomposeFlags {
   std::string input;
   std::string output;
@@ -55,11 +53,12 @@ struct Target {
 std::vector<Target> targets_of(const DecomposeFlags& flags, const files::Record& record) {
   std::vector<Target> targets;
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
-    const bool asked = flags.axis.empty() || flags.axis == kAxisNames[axis];
+    const bool asked = flags.axis.empty() || flags.axis == stream::kAxisNames[axis];
     if (!asked) continue;
     if (!record.gyro_radps[axis].empty()) {
       const bool own_name = !flags.axis.empty();
-      targets.push_back({axis, own_name ? flags.output : name_for_axis(flags.output, kAxisNames[axis])});
+      targets.push_back(
+          {axis, own_name ? flags.output : name_for_axis(flags.output, stream::kAxisNames[axis])});
     } else if (!flags.axis.empty()) {
       throw files::FileError(record.name + ": has no gyro_" + flags.axis + " column, which --axis asks for");
     }
@@ -181,7 +180,7 @@ int decompose(const DecomposeFlags& flags, Interrupt& interrupt) {
     }
     const core::RecordAnalysis analysis = core::analyse_record(record->gyro_radps[targets[i].axis], options);
     write_columns(*outputs[i], *record, analysis, unit);
-    axes[kAxisNames[targets[i].axis]] = axis_json(targets[i], analysis);
+    axes[stream::kAxisNames[targets[i].axis]] = axis_json(targets[i], analysis);
     std::fprintf(stderr,
                  "%s: %zu IMFs of %zu samples, by the paper's rule %zu noise, %zu mixed, the rest signal\n",
                  targets[i].path.c_str(), analysis.imfs.size(), record->size(), analysis.report.j,

@@ -14,7 +14,6 @@ namespace gyrod::app {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kTimeTolerance_s = 1e-9;  // what rounding can make of a sum of times
 
 using Errors = std::vector<NavigationErrorSample>;
 using MaybeTruth = std::optional<files::NavigationTruth>;

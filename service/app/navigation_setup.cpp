@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/navigation_starts.hpp"
 #include "core/inertial/truth_calibration.hpp"
 #include "files/file_error.hpp"
 
@@ -11,7 +12,6 @@ namespace gyrod::app {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kTimeTolerance_s = 1e-9;  // what rounding can make of a sum of times
 /// A truth that stays below this speed says nothing of the heading, m/s: a receiver's noise is a tenth of it.
 constexpr double kLeastSpeedForHeading_mps = 1.0;
 

@@ -14,9 +14,6 @@
 namespace gyrod::app {
 namespace {
 
-/// Half a nanosecond more than rounding can make of a sum of times.
-constexpr double kTimeTolerance_s = 1e-9;
-
 std::string seconds(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g s", value);

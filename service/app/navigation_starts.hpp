@@ -11,6 +11,9 @@
 
 namespace gyrod::app {
 
+/// Above what rounding can make of a sum of times, far below a sample.
+inline constexpr double kTimeTolerance_s = 1e-9;
+
 struct StartRules {
   double duration_s = 50.0;
   /// Stretch at rest that has to lie before a start; 0: none is needed.

@@ -13,15 +13,13 @@
 namespace gyrod::app {
 namespace {
 
-constexpr std::array<const char*, stream::kAxes> kAxisNames = {"x", "y", "z"};
-
 /// Steps of one axis: analysis, sections, series. Shares of the time, measured on 1 h at 100 Hz.
 constexpr std::array<double, 3> kShares = {0.75, 0.15, 0.10};
 
 /// The true rate of an axis in rad/s, NaN where it is not known; empty where the file has no such column.
 std::vector<double> truth_of(const files::Record& record, std::size_t axis) {
   for (const std::string unit : {"radps", "mradps", "dps", "mdps", "dph"}) {
-    const auto found = record.others.find("truth_" + std::string(kAxisNames[axis]) + "_" + unit);
+    const auto found = record.others.find("truth_" + std::string(stream::kAxisNames[axis]) + "_" + unit);
     if (found == record.others.end()) continue;
     std::vector<double> truth = found->second;
     for (double& value : truth) value = files::to_radps(value, *files::rate_unit_of(unit));
@@ -56,7 +54,7 @@ class AxisWork {
     add(kShares[0]);
     if (stopped_) return std::nullopt;
     const std::vector<double> truth = truth_of(record_, axis);
-    const report::AxisInput input{kAxisNames[axis], record_.sample_rate_hz, still_, truth, analysis};
+    const report::AxisInput input{stream::kAxisNames[axis], record_.sample_rate_hz, still_, truth, analysis};
     report::Json sections = report::axis_report(input);
     add(kShares[1]);
     if (stopped_) return std::nullopt;

@@ -31,8 +31,6 @@ struct ReportFlags {
   files::RecordOptions record;
 };
 
-constexpr std::array<const char*, stream::kAxes> kAxisNames = {"x", "y", "z"};
-
 /// @return nothing if it was interrupted
 std::optional<files::Record> load(ReportFlags flags, Interrupt& interrupt) {
   // Reading from a terminal or a pipe can wait for ever.
@@ -87,7 +85,7 @@ std::string trace_words() {
 Json whole_report(const files::Record& record, bool still, ReportedAxes& axes) {
   Json sections = Json::object();
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
-    if (axes[axis]) sections[kAxisNames[axis]] = std::move(axes[axis]->sections);
+    if (axes[axis]) sections[stream::kAxisNames[axis]] = std::move(axes[axis]->sections);
   }
   Json json{
       {"format", 1}, {"made_by", std::string("gyrod ") + version()}, {"record", record_json(record, still)}};

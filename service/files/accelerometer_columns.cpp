@@ -15,11 +15,11 @@ struct AccelUnit {
   std::string_view spelling;
   double mps2;
 };
-constexpr std::array<AccelUnit, 5> kUnits = {{{"mps2", 1.0},
-                                              {"m_s2", 1.0},
-                                              {"m/s2", 1.0},
-                                              {"g", kStandardGravity_mps2},
-                                              {"mg", 1e-3 * kStandardGravity_mps2}}};
+constexpr std::array<AccelUnit, 5> kAccelUnits = {{{"mps2", 1.0},
+                                                   {"m_s2", 1.0},
+                                                   {"m/s2", 1.0},
+                                                   {"g", kStandardGravity_mps2},
+                                                   {"mg", 1e-3 * kStandardGravity_mps2}}};
 
 /// Unit of the three columns, or nothing where they are not all there.
 const AccelUnit* unit_of(const ColumnMap& columns) {
@@ -28,8 +28,8 @@ const AccelUnit* unit_of(const ColumnMap& columns) {
       return columns.contains("accel_" + axis + "_" + std::string(unit.spelling));
     });
   };
-  const auto* found = std::ranges::find_if(kUnits, has_all);
-  return found == kUnits.end() ? nullptr : found;
+  const auto* found = std::ranges::find_if(kAccelUnits, has_all);
+  return found == kAccelUnits.end() ? nullptr : found;
 }
 
 /// Bridges what is no number. @return samples bridged, or nothing with the place of a run that is too long

@@ -9,8 +9,6 @@ namespace gyrod::monitor {
 namespace {
 
 using Families = std::vector<prometheus::MetricFamily>;
-constexpr auto kCounter = prometheus::MetricType::Counter;
-constexpr auto kGauge = prometheus::MetricType::Gauge;
 
 struct CountMetric {
   const char* name;

@@ -13,6 +13,8 @@
 namespace gyrod::monitor {
 
 using Labels = std::vector<prometheus::ClientMetric::Label>;
+inline constexpr auto kCounter = prometheus::MetricType::Counter;
+inline constexpr auto kGauge = prometheus::MetricType::Gauge;
 
 /// A metric of type counter or gauge, whichever its family is.
 [[nodiscard]] inline prometheus::ClientMetric metric(prometheus::MetricType type, double value,

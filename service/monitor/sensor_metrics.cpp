@@ -14,8 +14,6 @@ using core::WindowReport;
 using stream::ChannelSnapshot;
 using Families = std::vector<prometheus::MetricFamily>;
 using Value = std::optional<double>;
-constexpr auto kCounter = prometheus::MetricType::Counter;
-constexpr auto kGauge = prometheus::MetricType::Gauge;
 constexpr double kSecondsPerNanosecond = 1e-9;
 
 template <class Source>

@@ -9,17 +9,18 @@
 #include "settings/noise_model_json.hpp"
 #include "settings/text_file.hpp"
 #include "stream/registry.hpp"
+#include "stream/sample.hpp"
 
 namespace gyrod::settings {
 namespace {
 
 using nlohmann::json;
+using stream::kAxisNames;
 namespace fs = std::filesystem;
 
-constexpr const char* kVersionKey = "gyrod_noise";
-constexpr int kVersion = 1;
-constexpr std::size_t kMaxFileMebibytes = 1;
-constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+constexpr const char* kCalibrationKey = "gyrod_noise";
+constexpr int kCalibrationVersion = 1;
+constexpr std::size_t kMaxCalibrationMebibytes = 1;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kSqrtSecondsPerSqrtHour = 60.0;
 /// Figures are written with all digits; so much lets people round them.
@@ -62,9 +63,9 @@ void read_axes(const JsonFields& root, NoiseCalibration& calibration) {
   const JsonFields axes = root.fields("axes");
   axes.allow({"x", "y", "z"});
   if (axes.object().empty()) root.fail("axes", "the noise of one axis at least");
-  for (std::size_t a = 0; a < kAxes.size(); ++a) {
-    if (!axes.has(kAxes[a])) continue;
-    const JsonFields axis = axes.fields(kAxes[a]);
+  for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
+    if (!axes.has(kAxisNames[a])) continue;
+    const JsonFields axis = axes.fields(kAxisNames[a]);
     axis.allow({"white_std_radps", "colour_std_radps", "colour", "bias_radps"});
     calibration.models[a] = model_of(axis);
     if (axis.has("bias_radps")) calibration.bias_radps[a] = axis.number("bias_radps");
@@ -75,9 +76,10 @@ void read_figures(const JsonFields& root, const NoiseCalibration& calibration) {
   if (!root.has("figures")) return;
   const JsonFields figures = root.fields("figures");
   figures.allow({"x", "y", "z"});
-  for (std::size_t a = 0; a < kAxes.size(); ++a) {
-    if (!figures.has(kAxes[a]) || !core::is_usable(calibration.models[a])) continue;
-    check_figures(figures.fields(kAxes[a]), figures_of(calibration.models[a], calibration.sample_rate_hz));
+  for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
+    if (!figures.has(kAxisNames[a]) || !core::is_usable(calibration.models[a])) continue;
+    check_figures(figures.fields(kAxisNames[a]),
+                  figures_of(calibration.models[a], calibration.sample_rate_hz));
   }
 }
 
@@ -101,13 +103,13 @@ std::string words_for(const NoiseCalibration& calibration) {
 }  // namespace
 
 std::string calibration_text(const NoiseCalibration& calibration) {
-  json root = {{kVersionKey, kVersion}, {"sample_rate_hz", calibration.sample_rate_hz}};
+  json root = {{kCalibrationKey, kCalibrationVersion}, {"sample_rate_hz", calibration.sample_rate_hz}};
   if (calibration.sensor_id) root["sensor_id"] = *calibration.sensor_id;
-  for (std::size_t a = 0; a < kAxes.size(); ++a) {
+  for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
     if (!core::is_usable(calibration.models[a])) continue;
-    json& axis = root["axes"][kAxes[a]] = model_json(calibration.models[a]);
+    json& axis = root["axes"][kAxisNames[a]] = model_json(calibration.models[a]);
     axis["bias_radps"] = calibration.bias_radps[a];
-    root["figures"][kAxes[a]] = figures_of(calibration.models[a], calibration.sample_rate_hz);
+    root["figures"][kAxisNames[a]] = figures_of(calibration.models[a], calibration.sample_rate_hz);
   }
   root["origin"] = origin_json(calibration.origin);
   constexpr int kIndent = 2;
@@ -115,9 +117,9 @@ std::string calibration_text(const NoiseCalibration& calibration) {
 }
 
 NoiseCalibration parse_calibration(const std::string& file, std::string_view text) {
-  const json document = parse_versioned(file, text, kVersionKey, kVersion);
+  const json document = parse_versioned(file, text, kCalibrationKey, kCalibrationVersion);
   const JsonFields root(file, document);
-  root.allow({kVersionKey, "sensor_id", "sample_rate_hz", "axes", "figures", "origin"});
+  root.allow({kCalibrationKey, "sensor_id", "sample_rate_hz", "axes", "figures", "origin"});
   NoiseCalibration calibration;
   calibration.sample_rate_hz = root.positive("sample_rate_hz");
   if (root.has("sensor_id")) {
@@ -137,7 +139,7 @@ std::vector<NoiseCalibration> load_calibrations(const fs::path& file_or_folder) 
   const auto files = folder ? files_in(file_or_folder) : std::vector<fs::path>{file_or_folder};
   std::vector<NoiseCalibration> calibrations;
   for (const fs::path& file : files) {
-    const TextFile read = read_text_file(file, kMaxFileMebibytes);
+    const TextFile read = read_text_file(file, kMaxCalibrationMebibytes);
     if (!read.trouble.empty()) throw NoiseFileError(file.string() + ": " + read.trouble);
     NoiseCalibration calibration = parse_calibration(file.string(), read.text);
     const auto same = std::ranges::find(calibrations, calibration.sensor_id, &NoiseCalibration::sensor_id);

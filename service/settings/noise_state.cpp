@@ -5,15 +5,16 @@
 
 #include "settings/noise_model_json.hpp"
 #include "stream/registry.hpp"
+#include "stream/sample.hpp"
 
 namespace gyrod::settings {
 namespace {
 
 using nlohmann::json;
+using stream::kAxisNames;
 
-constexpr const char* kVersionKey = "gyrod_noise_state";
-constexpr int kVersion = 1;
-constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+constexpr const char* kStateKey = "gyrod_noise_state";
+constexpr int kStateVersion = 1;
 
 bool has_model(const core::StandstillState& state) {
   return std::ranges::any_of(state.models, core::is_usable);
@@ -21,8 +22,8 @@ bool has_model(const core::StandstillState& state) {
 
 json state_json(const core::StandstillState& state) {
   json axes = json::object();
-  for (std::size_t a = 0; a < kAxes.size(); ++a) {
-    if (core::is_usable(state.models[a])) axes[kAxes[a]] = model_json(state.models[a]);
+  for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
+    if (core::is_usable(state.models[a])) axes[kAxisNames[a]] = model_json(state.models[a]);
   }
   return {{"sample_rate_hz", state.sample_rate_hz},
           {"rest_s", state.rest_seconds},
@@ -39,13 +40,13 @@ core::StandstillState state_of(const JsonFields& fields) {
   state.rest_seconds = fields.positive("rest_s");
   state.segments = fields.positive("segments");
   state.bias_seconds = fields.positive("bias_rest_s");
-  const auto bias = fields.numbers("bias_radps", kAxes.size());
-  if (bias.size() != kAxes.size()) fields.fail("bias_radps", "a list of 3 numbers");
+  const auto bias = fields.numbers("bias_radps", kAxisNames.size());
+  if (bias.size() != kAxisNames.size()) fields.fail("bias_radps", "a list of 3 numbers");
   std::ranges::copy(bias, state.bias.begin());
   const JsonFields axes = fields.fields("axes");
   axes.allow({"x", "y", "z"});
-  for (std::size_t a = 0; a < kAxes.size(); ++a) {
-    if (axes.has(kAxes[a])) state.models[a] = model_of(axes.fields(kAxes[a]));
+  for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
+    if (axes.has(kAxisNames[a])) state.models[a] = model_of(axes.fields(kAxisNames[a]));
   }
   if (!has_model(state)) fields.fail("axes", "the noise of one axis at least");
   return state;
@@ -58,14 +59,14 @@ std::string noise_state_text(const NoiseStates& states) {
   for (const auto& [id, state] : states) {
     if (has_model(state)) sensors[id] = state_json(state);
   }
-  const json root = {{kVersionKey, kVersion}, {"sensors", std::move(sensors)}};
+  const json root = {{kStateKey, kStateVersion}, {"sensors", std::move(sensors)}};
   return root.dump(1) + "\n";
 }
 
 NoiseStates parse_noise_state(const std::string& file, std::string_view text) {
-  const json root = parse_versioned(file, text, kVersionKey, kVersion);
+  const json root = parse_versioned(file, text, kStateKey, kStateVersion);
   const JsonFields fields(file, root);
-  fields.allow({kVersionKey, "sensors"});
+  fields.allow({kStateKey, "sensors"});
   const JsonFields sensors = fields.fields("sensors");
   NoiseStates states;
   for (const auto& [id, unused] : sensors.object().items()) {

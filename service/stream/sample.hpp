@@ -8,6 +8,7 @@
 namespace gyrod::stream {
 
 inline constexpr std::size_t kAxes = 3;
+inline constexpr std::array<const char*, kAxes> kAxisNames = {"x", "y", "z"};
 
 /// One angular-rate sample of one sensor as it arrived.
 struct Sample {

@@ -13,11 +13,11 @@ constexpr double kOutvotedLevelSeconds = 1800.0;
 /// Largest distance of means of one bias, rad/s: 1 deg/s.
 constexpr double kSameBias = std::numbers::pi / 180.0;
 constexpr double kMemorySeconds = 600.0;
-constexpr double kFewestSegments = 5.0;
+constexpr double kLeastSegments = 5.0;
 constexpr double kFewestSeconds = 10.0;
 /// Of what is learned; so much more and the models are made anew.
 constexpr double kRefit = 0.1;
-constexpr double kSameRate = 0.02;
+constexpr double kSameSampleRate = 0.02;
 
 bool close(const Triple& a, const Triple& b) noexcept {
   for (std::size_t axis = 0; axis < a.size(); ++axis) {
@@ -54,8 +54,8 @@ void StandstillLearner::retime(double sample_rate_hz) noexcept {
   detector_.retime(sample_rate_hz);
   block_seconds_ = static_cast<double>(detector_.block_samples()) / sample_rate_hz;
   segment_seconds_ = static_cast<double>(kNoiseSegment / 2) / sample_rate_hz;
-  least_segments_ = std::max(kFewestSegments, kFewestSeconds / segment_seconds_);
-  most_segments_ = std::max(2.0 * kFewestSegments, kMemorySeconds / segment_seconds_);
+  least_segments_ = std::max(kLeastSegments, kFewestSeconds / segment_seconds_);
+  most_segments_ = std::max(2.0 * kLeastSegments, kMemorySeconds / segment_seconds_);
   at_rest_ = false;
   forget();
   state_ = {};
@@ -168,7 +168,7 @@ void StandstillLearner::forget() noexcept {
 
 bool StandstillLearner::restore(const StandstillState& state) noexcept {
   const double rate = state_.sample_rate_hz;
-  if (!is_good(state) || std::abs(state.sample_rate_hz - rate) > kSameRate * rate) return false;
+  if (!is_good(state) || std::abs(state.sample_rate_hz - rate) > kSameSampleRate * rate) return false;
   state_ = state;
   state_.sample_rate_hz = rate;
   state_.segments = std::min(state.segments, most_segments_);

@@ -9,7 +9,7 @@
 namespace gyrod::core {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Range {
   double low;
@@ -91,12 +91,12 @@ void DriveMotion::plan_next() noexcept {
   } else if (random_.uniform() < kTurnShare) {
     manoeuvre_ = Manoeuvre::kTurn;
     const double side = random_.uniform() < 0.5 ? -1.0 : 1.0;
-    peak_ = side * kRadPerDeg * draw(random_, kTurnRateDps);
+    peak_ = side * kDegree * draw(random_, kTurnRateDps);
     rise_s_ = draw(random_, kTurnRiseS);
     hold_s_ = draw(random_, kTurnHoldS);
   } else {
     manoeuvre_ = Manoeuvre::kStop;
-    peak_ = kRadPerDeg * draw(random_, kDipDeg);
+    peak_ = kDegree * draw(random_, kDipDeg);
     rise_s_ = draw(random_, kBrakeS);
     hold_s_ = draw(random_, kStandS);
   }
