@@ -15,7 +15,7 @@
 namespace gyrod::testing {
 
 /// Runs subcommands of the binary that the environment names in GYROD_BINARY. Every test has a scratch
-/// folder, removed at its end, and a DDS domain that no other process of the same test run uses.
+/// folder, removed at its end, and a DDS domain that no other program of the same test run uses.
 class Rig : public ::testing::Test {
  protected:
   Rig();
