@@ -58,7 +58,10 @@ ordered_json imfs_json(const core::WindowReport& report) {
                         {"acf_concentration", figures.acf_concentration},
                         {"mean_period_samples", figures.mean_period_samples},
                         {"energy_rad2ps2", figures.energy},
-                        {"excess", figures.excess}};
+                        {"excess", figures.excess},
+                        {"noise_excess_low", figures.noise_excess_low},
+                        {"noise_excess_high", figures.noise_excess_high},
+                        {"noise_probability", figures.noise_probability}};
     if (figures.imf_class == core::ImfClass::kMixed) imf["model"] = model_json(figures.model);
     imfs.push_back(std::move(imf));
   }

@@ -102,6 +102,16 @@ Plan plan_of(const DenoiseFlags& flags) {
   const bool paper = flags.screening == "paper" || (flags.batch && flags.screening.empty());
   if (paper) denoise.screening = settings::Screening::kPaper;
   if (flags.screening == "windowed") denoise.screening = settings::Screening::kWindowed;
+  if (flags.screening == "significance") {
+    denoise.screening = settings::Screening::kSignificance;
+    if (denoise.sifts != 10 || denoise.boundary != core::BoundaryRule::kMirror) {
+      throw CLI::ValidationError(
+          "--screening",
+          "significance is for denoise.sifts 10 and denoise.boundary \"mirror\", for which alone it has "
+          "its noise line; " +
+              flags.config + " has others");
+    }
+  }
   plan.options = core::whole_record_options(denoiser_options(denoise));
   plan.options.screening.rule = denoiser_options(denoise).screening.rule;
   if (flags.models == "ar") plan.options.models = core::ModelChoice::kAr;
@@ -191,9 +201,9 @@ void add_method_options(CLI::App& command, DenoiseFlags& flags) {
       ->check(one_of({core::kSchemeNames.begin(), core::kSchemeNames.end()}));
   command
       .add_option("--screening", flags.screening,
-                  "windowed or paper [as configured, else windowed; with --batch paper]")
+                  "windowed, paper or significance [as configured, else windowed; with --batch paper]")
       ->type_name("RULE")
-      ->check(one_of({"windowed", "paper"}));
+      ->check(one_of({"windowed", "paper", "significance"}));
   CLI::Option* batch =
       command.add_flag("--batch", flags.batch, "The whole record at once, as the paper does, not in windows");
   command

@@ -15,6 +15,18 @@ bus::Reliability reliability(settings::Reliability setting) noexcept {
                                                      : bus::Reliability::kBestEffort;
 }
 
+core::ScreeningRule rule_of(settings::Screening screening) noexcept {
+  switch (screening) {
+    case settings::Screening::kPaper:
+      return core::ScreeningRule::kPaper;
+    case settings::Screening::kSignificance:
+      return core::ScreeningRule::kSignificance;
+    case settings::Screening::kWindowed:
+      break;
+  }
+  return core::ScreeningRule::kWindowed;
+}
+
 }  // namespace
 
 bus::BusOptions bus_options(const settings::BusSettings& settings) {
@@ -65,8 +77,7 @@ core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings
   options.scheme = settings.scheme;
   options.emd.sifts = settings.sifts;
   options.emd.boundary = settings.boundary;
-  options.screening.rule = settings.screening == settings::Screening::kPaper ? core::ScreeningRule::kPaper
-                                                                             : core::ScreeningRule::kWindowed;
+  options.screening.rule = rule_of(settings.screening);
   options.max_ar_order = settings.max_ar_order;
   return options;
 }

@@ -13,6 +13,9 @@ void to_wire(const core::ImfFigures& figures, gyrod_ImfReport& wire) noexcept {
   wire.mean_period_samples = figures.mean_period_samples;
   wire.energy_rad2ps2 = figures.energy;
   wire.excess = figures.excess;
+  wire.noise_excess_low = figures.noise_excess_low;
+  wire.noise_excess_high = figures.noise_excess_high;
+  wire.noise_probability = figures.noise_probability;
   const auto order = static_cast<std::uint32_t>(figures.model.ar_order);
   // A C struct has no const pointers; a write only reads through them.
   wire.ar_coefficients = {order, order, const_cast<double*>(figures.model.ar_coefficients.data()), false};

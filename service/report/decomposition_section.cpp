@@ -52,6 +52,10 @@ Json imf_json(const AxisInput& input, std::size_t index, core::Autocorrelation& 
               {"correlation", correlation_word(figures.pcc)},
               {"acf_variance", figures.acf_variance},
               {"acf_concentration", figures.acf_concentration},
+              {"excess", figures.excess},
+              {"noise_excess_low", figures.noise_excess_low},
+              {"noise_excess_high", figures.noise_excess_high},
+              {"noise_probability", figures.noise_probability},
               {"trace", trace_json(imf, input.period_s(), kRowPoints)},
               {"acf", Json{{"step_s", acf_trace.step}, {"values", rounded(acf_trace.values)}}}};
 }

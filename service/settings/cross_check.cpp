@@ -60,6 +60,16 @@ class CrossCheck {
             {"limits.max_channels"});
   }
 
+  /// The scatter of white noise's energies is tabulated for one EMD (core/denoise/significance.hpp).
+  void check_screening() {
+    const DenoiseSettings& denoise = settings_.denoise;
+    if (denoise.screening != Screening::kSignificance) return;
+    const std::string reason = ", for which alone denoise.screening \"significance\" has its noise line";
+    require(denoise.sifts == 10, "denoise.sifts", denoise.sifts, "10" + reason, {"denoise.screening"});
+    require(denoise.boundary == core::BoundaryRule::kMirror, "denoise.boundary",
+            std::string(name_of(denoise.boundary)), "\"mirror\"" + reason, {"denoise.screening"});
+  }
+
   void check_topics() {
     const TopicSettings& topics = settings_.bus.topics;
     const std::array<std::pair<std::string, std::string>, 7> all = {
@@ -147,6 +157,7 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_window();
   check.check_method();
   check.check_sensors();
+  check.check_screening();
   check.check_topics();
   check.check_network(directory);
   check.check_calibrations(directory);

@@ -11,7 +11,9 @@ namespace gyrod::settings {
 constexpr std::array<std::string_view, 2> names_of(Reliability) { return {"reliable", "best_effort"}; }
 constexpr std::array<std::string_view, 2> names_of(Method) { return {"paper", "joint"}; }
 constexpr std::array<std::string_view, core::kSchemes> names_of(core::Scheme) { return core::kSchemeNames; }
-constexpr std::array<std::string_view, 2> names_of(Screening) { return {"windowed", "paper"}; }
+constexpr std::array<std::string_view, 3> names_of(Screening) {
+  return {"windowed", "paper", "significance"};
+}
 constexpr std::array<std::string_view, 2> names_of(core::BoundaryRule) { return {"mirror", "linear"}; }
 constexpr std::array<std::string_view, 4> names_of(NoiseSource) {
   return {"auto", "calibrated", "standstill", "imf1"};

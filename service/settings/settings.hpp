@@ -18,7 +18,7 @@ enum class Method : std::uint8_t {
   kPaper,
   kJoint,  ///< the two-speed estimator, a model method
 };
-enum class Screening : std::uint8_t { kWindowed, kPaper };
+enum class Screening : std::uint8_t { kWindowed, kPaper, kSignificance };
 /// Where the level of a sensor's own noise comes from.
 enum class NoiseSource : std::uint8_t { kAuto, kCalibrated, kStandstill, kImf1 };
 enum class LogLevel : std::uint8_t { kTrace, kDebug, kInfo, kWarning, kError };

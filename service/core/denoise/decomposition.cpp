@@ -10,10 +10,21 @@
 #include "core/signal/moments.hpp"
 
 namespace gyrod::core {
+namespace {
+
+/// Whether energies and their scatter are tabulated for this EMD.
+bool noise_line_holds(const EmdOptions& emd) noexcept {
+  constexpr EmdOptions kTabulated;
+  return emd.sifts == kTabulated.sifts && emd.boundary == kTabulated.boundary;
+}
+
+}  // namespace
 
 Decomposition::Decomposition(std::size_t max_samples, const EmdOptions& emd,
                              const ScreeningOptions& screening)
     : screening_(screening),
+      significance_(screening.false_alarm_rate),
+      line_holds_(noise_line_holds(emd)),
       max_samples_(max_samples),
       emd_(max_samples, emd),
       autocorrelation_(max_samples) {
@@ -21,6 +32,10 @@ Decomposition::Decomposition(std::size_t max_samples, const EmdOptions& emd,
   if (max_imfs > kMaxImfs) {
     throw std::invalid_argument("IMF limit is " + std::to_string(max_imfs) + ", expected at most " +
                                 std::to_string(kMaxImfs));
+  }
+  if (screening.rule == ScreeningRule::kSignificance && !line_holds_) {
+    throw std::invalid_argument("the significance rule was asked for with " + std::to_string(emd.sifts) +
+                                " sifts or another boundary rule, expected 10 sifts and the mirror rule");
   }
   // One row more: the EMD is offered a row before it says there is no mode.
   imfs_.resize((max_imfs + 1) * max_samples_);
@@ -42,7 +57,7 @@ double Decomposition::white_noise_variance_of(std::span<const double> window) no
 
 void Decomposition::decompose(std::span<const double> window, WindowReport& report,
                               std::optional<double> known_variance) noexcept {
-  const bool stop_at_signal = screening_.rule == ScreeningRule::kWindowed;
+  const bool stop_at_signal = screening_.rule != ScreeningRule::kPaper;
   emd_.start(window);
   double noise_variance = known_variance.value_or(0.0);
   bool signal_found = false;
@@ -51,7 +66,8 @@ void Decomposition::decompose(std::span<const double> window, WindowReport& repo
     const auto mode = imf(index - 1);
     if (index == 1 && !known_variance) noise_variance = white_noise_variance(variance(mode));
     ImfFigures& figures = report.imf[index - 1];
-    figures = imf_figures(mode, index, noise_variance, autocorrelation_);
+    figures =
+        imf_figures(mode, index, noise_variance, autocorrelation_, line_holds_ ? &significance_ : nullptr);
     signal_found = signal_found || is_signal(figures, screening_);
     if (!signal_found) report.k = index;
     if (signal_found && stop_at_signal) break;

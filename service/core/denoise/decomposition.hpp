@@ -16,10 +16,11 @@ namespace gyrod::core {
 /// [Yang2019] steps 1 to 4. Sizes its workspace once; no call allocates after that. Not thread-safe.
 class Decomposition {
  public:
-  /// @throws std::invalid_argument for an EMD option outside its range, or room for more than kMaxImfs IMFs
+  /// @throws std::invalid_argument for an EMD option outside its range, room for more than kMaxImfs IMFs, a false-alarm rate outside its range, or the significance rule
+  /// with other sifts or another boundary rule than the noise line was made for
   Decomposition(std::size_t max_samples, const EmdOptions& emd, const ScreeningOptions& screening);
 
-  /// Decomposes and screens. Under the windowed rule decomposing ends after the first signal IMF: what remains beside it is kept
+  /// Decomposes and screens. Except under the paper's rule decomposing ends after the first signal IMF: what remains beside it is kept
   /// anyway.
   /// @param report receives IMF figures, classes, j, k and noise floor; the rest stays as it is
   /// @param noise_variance of the white noise where it is known, unit^2; none: what IMF 1 stands for
@@ -44,6 +45,8 @@ class Decomposition {
   void screen(std::span<const double> window, WindowReport& report) noexcept;
 
   ScreeningOptions screening_;
+  SignificanceTest significance_;
+  bool line_holds_;
   std::size_t max_samples_;
   std::size_t samples_ = 0;
   Emd emd_;

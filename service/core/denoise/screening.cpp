@@ -8,19 +8,27 @@
 namespace gyrod::core {
 
 ImfFigures imf_figures(std::span<const double> imf, std::size_t index, double noise_variance,
-                       Autocorrelation& autocorrelation) noexcept {
+                       Autocorrelation& autocorrelation, const SignificanceTest* significance) noexcept {
   ImfFigures figures;
   figures.energy = variance(imf);
   figures.mean_period_samples = mean_period(imf);
   figures.acf_variance = autocorrelation.acf_variance(imf);
   figures.acf_concentration =
       figures.acf_variance * static_cast<double>(imf.size()) / figures.mean_period_samples;
-  if (noise_variance > 0.0) figures.excess = figures.energy / (noise_variance * noise_line_energy(index));
+  if (noise_variance <= 0.0) return figures;
+  figures.excess = figures.energy / (noise_variance * noise_line_energy(index));
+  if (significance != nullptr) {
+    const NoiseBand band = significance->band(index, imf.size());
+    figures.noise_excess_low = band.lower;
+    figures.noise_excess_high = band.upper;
+    figures.noise_probability = SignificanceTest::p_value(figures.excess, index, imf.size());
+  }
   return figures;
 }
 
 bool is_signal(const ImfFigures& figures, const ScreeningOptions& options) noexcept {
   if (options.rule == ScreeningRule::kPaper) return figures.acf_variance > options.acf_variance;
+  if (options.rule == ScreeningRule::kSignificance) return figures.excess > options.max_mixed_excess;
   return figures.acf_concentration > options.acf_concentration ||
          figures.mean_period_samples > options.max_noise_period_samples ||
          figures.excess > options.max_mixed_excess;
@@ -28,6 +36,9 @@ bool is_signal(const ImfFigures& figures, const ScreeningOptions& options) noexc
 
 void partition(WindowReport& report, const ScreeningOptions& options) noexcept {
   const auto is_noise = [&](const ImfFigures& figures) {
+    if (options.rule == ScreeningRule::kSignificance) {
+      return figures.noise_excess_low <= figures.excess && figures.excess <= figures.noise_excess_high;
+    }
     const bool correlates = std::abs(figures.pcc) >= options.very_weak_pcc;
     const bool near_the_line =
         options.rule == ScreeningRule::kPaper || figures.excess <= options.max_noise_excess;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/denoise/significance.hpp"
 #include "core/denoise/window_report.hpp"
 #include "core/signal/autocorrelation.hpp"
 
@@ -17,6 +18,9 @@ enum class ScreeningRule : std::uint8_t {
   /// made independent of N, k comes first, and the PCC is taken against the sum of IMF 1..k, so that motion
   /// does not hide the noise.
   kWindowed,
+  /// Noise is what lies within the scatter of white noise on the noise line, at a stated rate of false alarms; signal what has more
+  /// than max_mixed_excess. Correlations are not asked. For 10 sifts and the mirror rule: Decomposition refuses others.
+  kSignificance,
 };
 
 struct ScreeningOptions {
@@ -38,19 +42,24 @@ struct ScreeningOptions {
   /// samples a period stays below both figures of the ACF test, and inside the sum of IMF 1..k it would hide
   /// the noise from the PCC. Range 2..1e9.
   double max_mixed_excess = 30.0;
+  /// Significance rule: rate at which one IMF of white noise is not taken for noise. Range 1e-6..0.5. Source: the usual 1 %
+  /// (Wu, Huang 2004).
+  double false_alarm_rate = 0.01;
 };
 
 /// Figures of IMF number `index` (1 = fastest) that need the IMF alone: energy, mean period, ACF variance,
-/// c_i, excess.
+/// c_i, excess. Where the excess is known, the evidence of `significance` beside it.
+/// @param significance nothing: the noise line does not hold for these IMFs
 /// @param noise_variance variance of the channel's white noise, unit^2; 0 if unknown, then excess is 0
 [[nodiscard]] ImfFigures imf_figures(std::span<const double> imf, std::size_t index, double noise_variance,
-                                     Autocorrelation& autocorrelation) noexcept;
+                                     Autocorrelation& autocorrelation,
+                                     const SignificanceTest* significance = nullptr) noexcept;
 
 /// The ACF test: true where the rule set takes this IMF for signal.
 [[nodiscard]] bool is_signal(const ImfFigures& figures, const ScreeningOptions& options) noexcept;
 
 /// Sets j from the PCCs in report.imf[0..k), 0 <= j <= k: noise are the IMFs from the first one on whose
-/// |PCC| stays above "very weak" (and, under the windowed rule, whose energy stays near the noise line). Then
+/// |PCC| stays above "very weak" (and, under the windowed rule, whose energy stays near the noise line); under the significance rule those within the noise band. Then
 /// sets every imf_class from j, k.
 /// @pre report.imf_count and report.k are set
 void partition(WindowReport& report, const ScreeningOptions& options) noexcept;

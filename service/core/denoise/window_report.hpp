@@ -65,6 +65,11 @@ struct ImfFigures {
   /// Energy over that of the channel's white noise in this IMF (the noise line); about 1 is noise. 0 if the
   /// floor is unknown.
   double excess = 0.0;
+  /// Excess that white noise has in this IMF, but for the false-alarm rate of the test (ScreeningOptions), and the probability that it is
+  /// at least as far from its mean as here; about 0 is no noise. All 0 if the floor is unknown or the noise line does not hold.
+  double noise_excess_low = 0.0;
+  double noise_excess_high = 0.0;
+  double noise_probability = 0.0;
   /// Mixed IMFs only; else none.
   ModelFigures model;
 };

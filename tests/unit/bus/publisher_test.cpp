@@ -247,6 +247,9 @@ stream::NoiseReport full_report() {
              value + 0.4,
              value + 0.5,
              value + 0.6,
+             value + 0.7,
+             value + 0.8,
+             value + 0.9,
              {.family = core::ModelFamily::kAr, .ar_order = core::kMaxArOrder}};
       for (std::size_t p = 0; p < core::kMaxArOrder; ++p)
         imf.model.ar_coefficients[p] = value * static_cast<double>(p + 1);
@@ -263,6 +266,9 @@ void expect_same(const gyrod_ImfReport& wire, const core::ImfFigures& imf) {
   EXPECT_EQ(wire.mean_period_samples, imf.mean_period_samples);
   EXPECT_EQ(wire.energy_rad2ps2, imf.energy);
   EXPECT_EQ(wire.excess, imf.excess);
+  EXPECT_EQ(wire.noise_excess_low, imf.noise_excess_low);
+  EXPECT_EQ(wire.noise_excess_high, imf.noise_excess_high);
+  EXPECT_EQ(wire.noise_probability, imf.noise_probability);
   ASSERT_EQ(wire.ar_coefficients._length, imf.model.ar_order);
   for (std::size_t p = 0; p < imf.model.ar_order; ++p)
     EXPECT_EQ(wire.ar_coefficients._buffer[p], imf.model.ar_coefficients[p]);

@@ -57,6 +57,16 @@ TEST(SettingsIssues, AWrongTypeIsNamedWithWhatWasExpected) {
               ElementsAre("denoise.sample_rate_hz is -1; expected a number from 0 to 100000 (Hz)"));
 }
 
+TEST(SettingsIssues, ScreeningBySignificanceNeedsTheEmdOfItsNoiseLine) {
+  EXPECT_THAT(messages(R"({"denoise": {"screening": "significance"}})"), IsEmpty());
+  EXPECT_THAT(messages(R"({"denoise": {"screening": "windowed", "sifts": 8, "boundary": "linear"}})"),
+              IsEmpty());
+  const std::string why = ", for which alone denoise.screening \"significance\" has its noise line";
+  EXPECT_THAT(messages(R"({"denoise": {"screening": "significance", "sifts": 8, "boundary": "linear"}})"),
+              ElementsAre("denoise.sifts is 8; expected 10" + why,
+                          "denoise.boundary is \"linear\"; expected \"mirror\"" + why));
+}
+
 TEST(SettingsIssues, AWrongNameOfAnEnumerationComesWithTheRightOnes) {
   EXPECT_THAT(messages(R"({"denoise": {"boundary": "Mirror"}})"),
               ElementsAre("denoise.boundary is \"Mirror\"; expected \"mirror\" or \"linear\""));

@@ -37,7 +37,8 @@ TEST(DenoiserAllocation, DenoisingAllocatesNothing) {
   Signal out(1024);
   core::WindowReport report;
   std::size_t models = 0;
-  for (const auto rule : {core::ScreeningRule::kPaper, core::ScreeningRule::kWindowed}) {
+  for (const auto rule :
+       {core::ScreeningRule::kPaper, core::ScreeningRule::kWindowed, core::ScreeningRule::kSignificance}) {
     const std::uint64_t before_constructor = allocations();
     core::Denoiser denoiser(1024, with_rule(rule));
     const std::uint64_t before = allocations();

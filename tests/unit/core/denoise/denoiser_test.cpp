@@ -22,7 +22,8 @@ class DenoiserRule : public ::testing::TestWithParam<ScreeningRule> {
 };
 
 INSTANTIATE_TEST_SUITE_P(BothRules, DenoiserRule,
-                         ::testing::Values(ScreeningRule::kPaper, ScreeningRule::kWindowed));
+                         ::testing::Values(ScreeningRule::kPaper, ScreeningRule::kWindowed,
+                                           ScreeningRule::kSignificance));
 
 /// A slow swing in noise, rad/s.
 Signal noisy_swing(std::size_t size, unsigned seed) {
