@@ -3,12 +3,21 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace gyrod::core {
 namespace {
 
 /// Local levels before the first model: x[t] = x[t-1] + w, z = x + v with var w = ratio var v. Calm, ordinary, rough.
 constexpr std::array<double, 3> kStartRatios = {1e-4, 0.02, 1.0};
+
+/// Most that one sample says against a member, nu^2 / S: a million deviations.
+constexpr double kMostSurprise = 1e12;
+
+/// Whether one of the members can answer.
+bool has_member(const JointModel& model) noexcept {
+  return std::ranges::any_of(model.members, &MemberModel::usable);
+}
 
 /// The steady state in closed form, in parts of var v: X = (ratio + sqrt(ratio^2 + 4 ratio)) / 2, K = X / (X + 1), g_k = K (1 - K)^k.
 MemberModel local_level(double ratio) noexcept {
@@ -75,7 +84,11 @@ void KalmanBank::use(const JointModel& model) noexcept {
       error_variance_[i][lag] = model_.members[i].error_variance(lag);
     }
     for (std::uint64_t time = begin; time < count_; ++time) predict_and_update(i, sample_at(time), time);
+    if (count_ > begin && !std::isfinite(members_[i].innovation[(count_ - 1) % kRing])) {
+      model_.members[i].usable = false;
+    }
   }
+  if (!has_member(model_)) reset();
   if (count_ > 0) weigh();
 }
 
@@ -92,13 +105,19 @@ BankEstimates KalmanBank::step(double sample) noexcept {
     predict_and_update(i, sample, count_);
     const double nu = members_[i].innovation[count_ % kRing];
     const double S = member.innovation_variance * unit_;
-    const double normalised = S > 0.0 ? nu * nu / S : 0.0;
+    const double normalised = S > 0.0 ? std::min(nu * nu / S, kMostSurprise) : 0.0;
     double& l = members_[i].log_likelihood;
     l = options_.likelihood_memory * l - 0.5 * (normalised + (S > 0.0 ? std::log(S) : 0.0));
+    if (!std::isfinite(l)) {
+      model_.members[i].usable = false;
+      l = 0.0;
+      continue;
+    }
     fit += members_[i].weight * normalised;
     weights += members_[i].weight;
   }
   ++count_;
+  if (!has_member(model_)) return start_anew(sample);
   weigh();
   if (fitted_ && weights > 0.0)
     normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
@@ -106,12 +125,21 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   answer.realtime = combine(0);
   realtime_correction_ += options_.correction_rate * (sample - answer.realtime.rate - realtime_correction_);
   answer.realtime.rate += realtime_correction_;
+  if (!std::isfinite(answer.realtime.rate)) return start_anew(sample);
+  answer.denoised = answer.realtime;
   if (count_ <= lag_) return answer;
   answer.denoised = combine(lag_);
   const double then = sample_at(count_ - 1 - lag_);
   denoised_correction_ += options_.correction_rate * (then - answer.denoised.rate - denoised_correction_);
   answer.denoised.rate += denoised_correction_;
-  return answer;
+  return std::isfinite(answer.denoised.rate) ? answer : start_anew(sample);
+}
+
+/// No member is left within the finite numbers: the sample answers for itself.
+BankEstimates KalmanBank::start_anew(double sample) noexcept {
+  reset();
+  const BankEstimate nothing_known{.rate = sample, .variance = std::numeric_limits<double>::max()};
+  return {.realtime = nothing_known, .denoised = nothing_known};
 }
 
 BankEstimate KalmanBank::held(std::size_t age) const noexcept {
@@ -137,6 +165,7 @@ void KalmanBank::start() noexcept {
 void KalmanBank::learn_start_variance(double sample) noexcept {
   if (count_ < 2) return;
   const double second = sample - 2.0 * sample_at(count_ - 1) + sample_at(count_ - 2);
+  if (!std::isfinite(second * second)) return;
   const double share = 1.0 / static_cast<double>(std::min<std::uint64_t>(count_ - 1, 128));
   unit_ += share * (second * second / 6.0 - unit_);
 }
@@ -190,7 +219,8 @@ BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
     const double apart = estimates[i] - mixture.rate;
     mixture.variance += members_[i].weight * (error_variance_[i][lag] * unit_ + apart * apart);
   }
-  mixture.variance *= options_.variance_factor;
+  mixture.variance =
+      std::min(mixture.variance * options_.variance_factor, std::numeric_limits<double>::max());
   return mixture;
 }
 

@@ -20,7 +20,7 @@ struct BankEstimate {
 /// What is known of x after a sample z[t].
 struct BankEstimates {
   BankEstimate realtime;  ///< x[t] given z[..t]
-  BankEstimate denoised;  ///< x[t-lag] given z[..t]; before sample number `lag` it means nothing
+  BankEstimate denoised;  ///< x[t-lag] given z[..t]; before sample number `lag` as realtime
 };
 
 /// Every member, per sample:
@@ -30,6 +30,8 @@ struct BankEstimates {
 /// exact in the steady state; the bank's is sum w e_L, and a slow correction is added to it, which follows z[t-L] - e with
 /// correction_rate, so that what no member expects still arrives. Its variance is variance_factor sum w (P_L + (e_L - e)^2).
 /// Before the first model, three local levels (random walks seen in white noise) answer.
+/// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
+/// for itself.
 /// Allocates nothing after construction; finite for finite input. Not thread-safe.
 /// Source: docs/method.md; fixed lag by innovations: Anderson, Moore 1979, "Optimal filtering", section 7.3.
 class KalmanBank {
@@ -65,6 +67,7 @@ class KalmanBank {
   };
 
   void start() noexcept;
+  [[nodiscard]] BankEstimates start_anew(double sample) noexcept;
   void learn_start_variance(double sample) noexcept;
   void predict_and_update(std::size_t index, double sample, std::uint64_t time) noexcept;
   void weigh() noexcept;
