@@ -58,9 +58,9 @@ class MemberDesigner {
   MemberDesigner(MemberDesigner&&) noexcept;
   MemberDesigner& operator=(MemberDesigner&&) noexcept;
 
-  /// Solves for the steady state by structured doubling (core/denoise/riccati.hpp).
+  /// Solves for the steady state (core/joint/block_riccati.hpp); the same bits on every processor.
   /// @param noise_variance r > 0, unit^2
-  /// @return false, with `member` untouched, where it does not settle or is not finite
+  /// @return false, with `member` untouched, where it does not settle, is not finite or does not meet its equation
   /// @pre the blocks' roots lie inside the unit circle, their orders add up to at most kMaxStates
   [[nodiscard]] bool design(const BlockSet& blocks, double noise_variance, MemberModel& member) noexcept;
 

@@ -1,0 +1,22 @@
+/// The kernels of small matrices for any processor: registers of two doubles (SSE2, NEON).
+#include <cstddef>
+#include <cstdint>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "core/joint/matrix_kernel.hpp"
+
+#define GYROD_KERNEL baseline
+#define GYROD_LANES 2
+// clang-format off
+#include "core/emd/vector_lanes.hpp"
+#include "core/joint/vector_matrix.hpp"
+// clang-format on
+
+namespace gyrod::core {
+
+const MatrixKernel kBaselineMatrix{baseline::multiply, baseline::subtract, baseline::subtract_rows,
+                                   baseline::advance_row};
+
+}  // namespace gyrod::core
