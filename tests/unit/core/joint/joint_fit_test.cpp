@@ -1,0 +1,178 @@
+#include "core/joint/joint_fit.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/allocation_counter.hpp"
+#include "unit/core/joint/joint_support.hpp"
+
+namespace gyrod {
+namespace {
+
+using core::JointFit;
+using core::JointModel;
+using core::MemberModel;
+using core::NoiseModel;
+using core::WindowReport;
+using testing::JointOutput;
+using testing::Signal;
+
+constexpr std::size_t kWindow = 1024;
+
+/// A swing, a slow turn, and noise of variance 0.09.
+Signal window(unsigned seed = 1, std::size_t size = kWindow) {
+  Signal x = testing::times(testing::tone(size, 0.01), 2.0);
+  x = testing::sum(x, testing::tone(size, 0.0007), 5.0);
+  return testing::sum(x, testing::white_noise(size, seed), 0.3);
+}
+
+JointModel fitted(const Signal& z, const NoiseModel& noise) {
+  JointFit fit(kWindow);
+  JointModel model;
+  WindowReport report;
+  fit.fit(z, noise, model, report);
+  return model;
+}
+
+void expect_same(const MemberModel& a, const MemberModel& b, double factor = 1.0) {
+  EXPECT_EQ(a.usable, b.usable);
+  EXPECT_EQ(a.states, b.states);
+  EXPECT_EQ(a.gain, b.gain);
+  EXPECT_EQ(a.smoothing, b.smoothing);
+  EXPECT_EQ(a.innovation_variance * factor, b.innovation_variance);
+  EXPECT_EQ(a.prediction_variance * factor, b.prediction_variance);
+}
+
+// White noise holds no motion: of its deviation of 1 a twelfth is left. The windowed fit finds chance peaks, which is what remains.
+TEST(JointFit, WhiteNoiseGivesAQuietOutput) {
+  const Signal z = testing::white_noise(6000, 1);
+  const JointOutput out = testing::run_joint(z, core::white_noise(1.0), 16, kWindow);
+  const Signal nothing(z.size());
+  EXPECT_LT(testing::rms_difference(out.denoised, nothing, 1200, 5900), 0.3);
+  EXPECT_LT(testing::rms_difference(out.realtime, nothing, 1200, 5900), 0.35);
+  EXPECT_EQ(out.fallbacks, 0U);
+}
+
+TEST(JointFit, TakesTheNoiseOffASwing) {
+  const Signal truth = testing::times(testing::tone(4000, 0.005), 3.0);
+  const Signal z = testing::sum(truth, testing::white_noise(4000, 2), 0.5);
+  const JointOutput out = testing::run_joint(z, core::white_noise(0.25), 16, kWindow);
+  EXPECT_LT(testing::rms_difference(out.denoised, truth, 1200, 3900), 0.2);
+  EXPECT_LT(testing::rms_difference(out.realtime, truth, 1200, 3900), 0.3);
+}
+
+// A constant window has no IMF 1 to take the noise from.
+TEST(JointFit, AConstantWindowLeavesTheModelAlone) {
+  JointFit fit(kWindow);
+  WindowReport report;
+  JointModel model;
+  fit.fit(window(), {}, model, report);
+  ASSERT_TRUE(model.usable());
+  const JointModel before = model;
+  fit.fit(Signal(kWindow, 3.0), {}, model, report);
+  EXPECT_EQ(model.mean, before.mean);
+  for (std::size_t i = 0; i < core::kMembers; ++i) expect_same(model.members[i], before.members[i]);
+  EXPECT_EQ(report.mean, 3.0);
+  EXPECT_EQ(report.imf_count, 0U);
+}
+
+// Powers of two scale every number exactly, so that not one bit of a gain may differ.
+TEST(JointFit, ScalingByAPowerOfTwoScalesTheVariancesOnly) {
+  const Signal z = window();
+  for (const bool known : {true, false}) {
+    const JointModel plain = fitted(z, known ? core::white_noise(0.09) : NoiseModel{});
+    ASSERT_TRUE(plain.usable());
+    for (const double factor : {0x1p-20, 0x1p30}) {
+      const NoiseModel noise = known ? core::white_noise(0.09 * factor * factor) : NoiseModel{};
+      const JointModel scaled = fitted(testing::times(z, factor), noise);
+      EXPECT_EQ(scaled.mean, plain.mean * factor);
+      for (std::size_t i = 0; i < core::kMembers; ++i) {
+        expect_same(plain.members[i], scaled.members[i], factor * factor);
+      }
+    }
+  }
+}
+
+// A white part of 1e-300 beside a colour of 1 overflows in the Riccati equation.
+TEST(JointFit, AMemberThatFailsKeepsWhatItHad) {
+  JointFit fit(kWindow);
+  WindowReport report;
+  JointModel model;
+  fit.fit(window(1), core::white_noise(0.09), model, report);
+  ASSERT_EQ(model.fallbacks, 0U);
+  const JointModel before = model;
+  NoiseModel impossible = core::white_noise(1e-300);
+  impossible.colour_order = 1;
+  impossible.colour[0] = 0.5;
+  impossible.colour_variance = 0.09;
+  fit.fit(window(2), impossible, model, report);
+  EXPECT_EQ(model.fallbacks, core::kMembers);
+  EXPECT_TRUE(model.usable());
+  for (std::size_t i = 0; i < core::kMembers; ++i) expect_same(model.members[i], before.members[i]);
+}
+
+TEST(JointFit, AUsedObjectGivesTheBitsOfAFreshOne) {
+  JointFit used(kWindow);
+  WindowReport report;
+  JointModel model;
+  for (const std::size_t size : {64U, 1000U, 1024U}) {
+    used.fit(window(3, size), {}, model, report);
+    used.fit(window(4, size), core::white_noise(0.09), model, report);
+    const JointModel fresh = fitted(window(4, size), core::white_noise(0.09));
+    for (std::size_t i = 0; i < core::kMembers; ++i) expect_same(model.members[i], fresh.members[i]);
+  }
+}
+
+TEST(JointFit, ReportsTheNoiseAndTheMean) {
+  JointFit fit(kWindow);
+  WindowReport report;
+  JointModel model;
+  const Signal z = testing::sum(window(), Signal(kWindow, 1.0), 7.0);
+  fit.fit(z, core::white_noise(0.09), model, report);
+  EXPECT_NEAR(report.noise_floor, 0.3, 1e-12);
+  EXPECT_EQ(report.mean, model.mean);
+  EXPECT_EQ(report.window_samples, kWindow);
+  EXPECT_GT(report.imf_count, 3U);
+}
+
+// A new model moves the answer no more than a sample does: steps at hand-overs have the size of all others.
+TEST(JointFit, HandOversDoNotShowInTheOutput) {
+  constexpr std::size_t kSize = 8000;
+  Signal truth = testing::times(testing::tone(kSize, 0.003), 3.0);
+  const std::vector<double> wander = {1.8, -0.82};
+  truth = testing::sum(truth, testing::autoregressive(wander, kSize, 5), 0.05);
+  const Signal z = testing::sum(truth, testing::white_noise(kSize, 6), 0.3);
+  const JointOutput out = testing::run_joint(z, core::white_noise(0.09), 16, kWindow);
+  double at_hand_over = 0.0;
+  double elsewhere = 0.0;
+  std::size_t hand_overs = 0;
+  std::size_t large = 0;
+  for (std::size_t t = 1200; t < kSize - 16; ++t) {
+    if (t % 32 != 0) elsewhere += std::pow(out.realtime[t] - out.realtime[t - 1], 2) / (6784.0 * 31.0 / 32.0);
+  }
+  for (std::size_t t = 1216; t < kSize - 16; t += 32, ++hand_overs) {
+    const double step = std::pow(out.realtime[t] - out.realtime[t - 1], 2);
+    at_hand_over += step;
+    large += step > 9.0 * elsewhere ? 1 : 0;
+  }
+  // Of normal steps 0.3 % exceed three deviations; 5 % leaves room for what a model does change.
+  EXPECT_LT(static_cast<double>(large), 0.05 * static_cast<double>(hand_overs));
+  EXPECT_LT(at_hand_over / static_cast<double>(hand_overs), 2.25 * elsewhere);
+}
+
+TEST(JointFit, AllocatesNothingAfterConstruction) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
+  const Signal z = window();
+  JointFit fit(kWindow);
+  WindowReport report;
+  JointModel model;
+  const auto before = testing::allocations();
+  fit.fit(z, core::white_noise(0.09), model, report);
+  fit.fit(std::span(z).first(500), {}, model, report);
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_TRUE(model.usable());
+}
+
+}  // namespace
+}  // namespace gyrod
