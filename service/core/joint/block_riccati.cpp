@@ -46,7 +46,7 @@ bool BlockRiccati::solve(const BlockSet& blocks, double r) noexcept {
   for (int k = 1; k < kSteps; ++k) step();
   symmetrise(X_, size_);
   symmetrise(G_, size_);
-  transpose(transition_, padded_, transposed_);
+  transpose(transition_, size_, transposed_);
   std::swap(transition_, transposed_);
   return double_until_settled() && meets_equation();
 }
@@ -89,16 +89,23 @@ void BlockRiccati::add_block(const FilterBlock& block, std::size_t head) noexcep
   }
 }
 
-/// X H and S of the X at hand; X is symmetric, so that the sum of its heads' rows is meant.
-void BlockRiccati::observe() noexcept {
-  observed_.fill(0.0);
+/// The sum of the heads' rows: H' matrix.
+void BlockRiccati::add_heads(const MatrixBuffer& matrix, std::array<double, kMatrixStride>& sum) noexcept {
+  sum.fill(0.0);
+  factors_.fill(0.0);
   std::size_t head = 0;
   for (const FilterBlock& block : blocks_->all()) {
-    kernel_.subtract(padded_, -1.0, row_of(X_, head), observed_.data());
+    factors_[head] = -1.0;
+    kernel_.subtract_rows(padded_, factors_.data(), head, head + 1, matrix.data(), sum.data());
     head += block.order;
   }
+}
+
+/// X H and S of the X at hand; X is symmetric.
+void BlockRiccati::observe() noexcept {
+  add_heads(X_, observed_);
   innovation_variance_ = r_;
-  head = 0;
+  std::size_t head = 0;
   for (const FilterBlock& block : blocks_->all()) {
     innovation_variance_ += observed_[head];
     head += block.order;
@@ -108,19 +115,13 @@ void BlockRiccati::observe() noexcept {
 /// One step of the recursion.
 void BlockRiccati::step() noexcept {
   observe();
-  response_.fill(0.0);
-  std::size_t head = 0;
-  for (const FilterBlock& block : blocks_->all()) {
-    kernel_.subtract(padded_, -1.0, row_of(transition_, head), response_.data());
-    head += block.order;
-  }
+  add_heads(transition_, response_);
   const double inverse = 1.0 / innovation_variance_;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const double gain = observed_[i] * inverse;
-    kernel_.subtract(padded_, -response_[i] * inverse, response_.data(), row_of(G_, i));
-    kernel_.subtract(padded_, gain, response_.data(), row_of(transition_, i));
-    kernel_.subtract(padded_, gain, observed_.data(), row_of(X_, i));
-  }
+  for (std::size_t i = 0; i < size_; ++i) factors_[i] = -response_[i] * inverse;
+  kernel_.subtract(padded_, factors_.data(), 0, size_, response_.data(), G_.data());
+  for (std::size_t i = 0; i < size_; ++i) factors_[i] = observed_[i] * inverse;
+  kernel_.subtract(padded_, factors_.data(), 0, size_, response_.data(), transition_.data());
+  kernel_.subtract(padded_, factors_.data(), 0, size_, observed_.data(), X_.data());
   move_rows(transition_);
   move_rows(X_);
   move_columns();
@@ -131,10 +132,9 @@ void BlockRiccati::move_rows(MatrixBuffer& matrix) noexcept {
   std::size_t head = 0;
   for (const FilterBlock& block : blocks_->all()) {
     head_row_.fill(0.0);
-    for (std::size_t i = 0; i < block.order; ++i) {
-      kernel_.subtract(padded_, -block.a[i], row_of(matrix, head + i), head_row_.data());
-    }
+    for (std::size_t i = 0; i < block.order; ++i) factors_[i] = -block.a[i];
     double* const first = row_of(matrix, head);
+    kernel_.subtract_rows(padded_, factors_.data(), 0, block.order, first, head_row_.data());
     std::copy_backward(first, first + (block.order - 1) * kStride, first + block.order * kStride);
     std::copy_n(head_row_.data(), padded_, first);
     head += block.order;
@@ -166,13 +166,12 @@ bool BlockRiccati::double_until_settled() noexcept {
   constexpr double kSettled = 1e-8;
   for (int k = 0; k < kMaxDoublings; ++k) {
     multiply(G_, X_, W_);
-    for (std::size_t i = 0; i < padded_; ++i) W_[i * kStride + i] += 1.0;
+    for (std::size_t i = 0; i < size_; ++i) W_[i * kStride + i] += 1.0;
     if (!factorise()) return false;
     divide(transition_, divided_);
     multiply(X_, transition_, product_);
     multiply_transposed(divided_, product_, growth_);
-    for (std::size_t i = 0; i < size_; ++i)
-      kernel_.subtract(padded_, -1.0, row_of(growth_, i), row_of(X_, i));
+    add(growth_, X_);
     symmetrise(X_, size_);
     const double norm = square_norm(X_, size_);
     const double growth = square_norm(growth_, size_);
@@ -187,32 +186,33 @@ bool BlockRiccati::double_until_settled() noexcept {
 void BlockRiccati::double_transition() noexcept {
   multiply(transition_, divided_, growth_);  // a W^-1 a
   divide(G_, divided_);
-  transpose(transition_, padded_, transposed_);
+  transpose(transition_, size_, transposed_);
   multiply(divided_, transposed_, product_);
   multiply(transition_, product_, divided_);
-  for (std::size_t i = 0; i < size_; ++i) kernel_.subtract(padded_, -1.0, row_of(divided_, i), row_of(G_, i));
+  add(divided_, G_);
   symmetrise(G_, size_);
   std::copy_n(growth_.begin(), padded_ * kStride, transition_.begin());
 }
 
 /// W = P L U by rows, the largest element of the column leading.
 bool BlockRiccati::factorise() noexcept {
-  for (std::size_t i = 0; i < padded_; ++i) order_[i] = i;
-  for (std::size_t k = 0; k < padded_; ++k) {
+  for (std::size_t i = 0; i < size_; ++i) order_[i] = i;
+  for (std::size_t k = 0; k < size_; ++k) {
     std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < padded_; ++i) {
+    for (std::size_t i = k + 1; i < size_; ++i) {
       if (std::abs(W_[i * kStride + k]) > std::abs(W_[pivot * kStride + k])) pivot = i;
     }
     if (pivot != k) exchange(k, pivot);
     const double inverse = 1.0 / W_[k * kStride + k];
     if (!std::isfinite(inverse)) return false;
     inverse_pivot_[k] = inverse;
-    const std::size_t begin = (k + 1) / kMatrixPadding * kMatrixPadding;
-    for (std::size_t i = k + 1; i < padded_; ++i) {
-      const double factor = W_[i * kStride + k] * inverse;
-      lower_[i * kStride + k] = factor;
-      kernel_.subtract(padded_ - begin, factor, row_of(W_, k) + begin, row_of(W_, i) + begin);
+    for (std::size_t i = k + 1; i < size_; ++i) {
+      factors_[i] = W_[i * kStride + k] * inverse;
+      lower_[i * kStride + k] = factors_[i];
     }
+    const std::size_t begin = (k + 1) / kMatrixPadding * kMatrixPadding;
+    kernel_.subtract(padded_ - begin, factors_.data(), k + 1, size_, row_of(W_, k) + begin,
+                     W_.data() + begin);
   }
   return true;
 }
@@ -225,13 +225,13 @@ void BlockRiccati::exchange(std::size_t i, std::size_t j) noexcept {
 
 /// out = W^-1 right.
 void BlockRiccati::divide(const MatrixBuffer& right, MatrixBuffer& out) noexcept {
-  for (std::size_t i = 0; i < padded_; ++i) {
+  for (std::size_t i = 0; i < size_; ++i) {
     std::copy_n(row_of(right, order_[i]), padded_, row_of(out, i));
     kernel_.subtract_rows(padded_, row_of(lower_, i), 0, i, out.data(), row_of(out, i));
   }
-  for (std::size_t i = padded_; i-- > 0;) {
+  for (std::size_t i = size_; i-- > 0;) {
     double* const row = row_of(out, i);
-    kernel_.subtract_rows(padded_, row_of(W_, i), i + 1, padded_, out.data(), row);
+    kernel_.subtract_rows(padded_, row_of(W_, i), i + 1, size_, out.data(), row);
     for (std::size_t j = 0; j < padded_; ++j) row[j] *= inverse_pivot_[i];
   }
 }
@@ -254,14 +254,22 @@ bool BlockRiccati::meets_equation() noexcept {
   return innovation_variance_ > 0.0 && std::isfinite(innovation_variance_) && difference <= kTolerance * size;
 }
 
+void BlockRiccati::add(const MatrixBuffer& growth, MatrixBuffer& matrix) const noexcept {
+  for (std::size_t i = 0; i < size_; ++i) {
+    const double* const from = row_of(growth, i);
+    double* const to = row_of(matrix, i);
+    for (std::size_t j = 0; j < padded_; ++j) to[j] += from[j];
+  }
+}
+
 void BlockRiccati::multiply(const MatrixBuffer& a, const MatrixBuffer& b, MatrixBuffer& c) const noexcept {
-  kernel_.multiply(padded_, a.data(), kStride, 1, b.data(), c.data());
+  kernel_.multiply(size_, a.data(), kStride, 1, b.data(), c.data());
 }
 
 /// c = a' b.
 void BlockRiccati::multiply_transposed(const MatrixBuffer& a, const MatrixBuffer& b,
                                        MatrixBuffer& c) const noexcept {
-  kernel_.multiply(padded_, a.data(), 1, kStride, b.data(), c.data());
+  kernel_.multiply(size_, a.data(), 1, kStride, b.data(), c.data());
 }
 
 }  // namespace gyrod::core

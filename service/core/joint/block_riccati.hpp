@@ -39,11 +39,13 @@ class BlockRiccati {
   }
 
  private:
-  static constexpr int kSteps = 8;
+  static constexpr int kSteps = 16;
 
   void begin(const BlockSet& blocks, double r) noexcept;
   void add_block(const FilterBlock& block, std::size_t head) noexcept;
   void observe() noexcept;
+  void add_heads(const MatrixBuffer& matrix, std::array<double, kMatrixStride>& sum) noexcept;
+  void add(const MatrixBuffer& growth, MatrixBuffer& matrix) const noexcept;
   void step() noexcept;
   void move_rows(MatrixBuffer& matrix) noexcept;
   void move_columns() noexcept;
@@ -69,6 +71,7 @@ class BlockRiccati {
   alignas(64) std::array<double, kMatrixStride> observed_{};  ///< X H
   alignas(64) std::array<double, kMatrixStride> response_{};  ///< a H
   alignas(64) std::array<double, kMatrixStride> head_row_{};
+  alignas(64) std::array<double, kMatrixStride> factors_{};
   alignas(64) MatrixBuffer transition_{};  ///< a, its transpose while single steps are made
   alignas(64) MatrixBuffer transposed_{};
   alignas(64) MatrixBuffer G_{};

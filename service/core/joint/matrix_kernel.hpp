@@ -26,19 +26,21 @@ struct CompanionRows {
   std::array<std::array<double, kMatrixStride>, kModeOrder> head{};
 };
 
-/// All kernels do the same arithmetic for every element, in the same order, and give the same bits. None allocates; n is a multiple of
-/// kMatrixPadding, and every pointer is to a row of kMatrixStride.
+/// All kernels do the same arithmetic for every element, in the same order, and give the same bits. None allocates; `padded`, the
+/// length of the rows, is a multiple of kMatrixPadding, and every pointer is to a row of kMatrixStride.
 struct MatrixKernel {
-  /// c = a b, with a(i, k) at a[i * row_step + k * inner_step]: (kMatrixStride, 1) is a itself, (1, kMatrixStride) its transpose.
-  void (*multiply)(std::size_t n, const double* a, std::size_t row_step, std::size_t inner_step,
+  /// c = a b of `size` rows, rounded up to four, with a(i, k) at a[i * row_step + k * inner_step]: (kMatrixStride, 1) is a itself,
+  /// (1, kMatrixStride) its transpose. @pre rows and columns from `size` on are zero
+  void (*multiply)(std::size_t size, const double* a, std::size_t row_step, std::size_t inner_step,
                    const double* b, double* c) noexcept;
-  /// row <- row - factor * other.
-  void (*subtract)(std::size_t n, double factor, const double* other, double* row) noexcept;
+  /// row_i <- row_i - factors[i] * other for the rows begin..end of the matrix.
+  void (*subtract)(std::size_t padded, const double* factors, std::size_t begin, std::size_t end,
+                   const double* other, double* matrix) noexcept;
   /// row <- row - sum_(begin <= k < end) factors[k] row_k of the matrix.
-  void (*subtract_rows)(std::size_t n, const double* factors, std::size_t begin, std::size_t end,
+  void (*subtract_rows)(std::size_t padded, const double* factors, std::size_t begin, std::size_t end,
                         const double* matrix, double* row) noexcept;
   /// out = x A' but for the heads of longer blocks. @pre x lies in a RowBuffer, kMatrixPadding behind its begin
-  void (*advance_row)(std::size_t n, const CompanionRows& rows, const double* x, double* out) noexcept;
+  void (*advance_row)(std::size_t padded, const CompanionRows& rows, const double* x, double* out) noexcept;
 };
 
 /// The kernel asked for; kFastest is the widest one that this processor runs. kReference is the same as kBaseline here.

@@ -6,10 +6,10 @@ inline Lanes all(double value) noexcept { return value - Lanes{}; }
 
 /// kRows x (kVectors registers) of the product, which stay in registers: kRows * kVectors chains of additions hide their latency.
 template <std::size_t kRows, std::size_t kVectors>
-inline void multiply_tile(std::size_t n, const double* a, std::size_t row_step, std::size_t inner_step,
+inline void multiply_tile(std::size_t size, const double* a, std::size_t row_step, std::size_t inner_step,
                           const double* b, double* c) noexcept {
   Lanes sum[kRows][kVectors]{};
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < size; ++k) {
     Lanes right[kVectors];
 #pragma GCC unroll 4
     for (std::size_t v = 0; v < kVectors; ++v) right[v] = load(b + k * kMatrixStride + v * kLanes);
@@ -27,23 +27,41 @@ inline void multiply_tile(std::size_t n, const double* a, std::size_t row_step, 
   }
 }
 
-inline void multiply(std::size_t n, const double* a, std::size_t row_step, std::size_t inner_step,
+inline void multiply(std::size_t size, const double* a, std::size_t row_step, std::size_t inner_step,
                      const double* b, double* c) noexcept {
   constexpr std::size_t kRows = 4;
-  for (std::size_t i = 0; i < n; i += kRows) {
+  for (std::size_t i = 0; i < size; i += kRows) {
     std::size_t j = 0;
-    for (; j + 2 * kLanes <= n; j += 2 * kLanes) {
-      multiply_tile<kRows, 2>(n, a + i * row_step, row_step, inner_step, b + j, c + i * kMatrixStride + j);
+    for (; j + kLanes < size; j += 2 * kLanes) {
+      multiply_tile<kRows, 2>(size, a + i * row_step, row_step, inner_step, b + j, c + i * kMatrixStride + j);
     }
-    for (; j < n; j += kLanes) {
-      multiply_tile<kRows, 1>(n, a + i * row_step, row_step, inner_step, b + j, c + i * kMatrixStride + j);
+    if (j < size) {
+      multiply_tile<kRows, 1>(size, a + i * row_step, row_step, inner_step, b + j, c + i * kMatrixStride + j);
     }
   }
 }
 
-inline void subtract(std::size_t n, double factor, const double* other, double* row) noexcept {
-  const Lanes factors = all(factor);
-  for (std::size_t j = 0; j < n; j += kLanes) store(row + j, load(row + j) - factors * load(other + j));
+template <std::size_t kVectors>
+inline void subtract_strip(const double* factors, std::size_t begin, std::size_t end, const double* other,
+                           double* matrix) noexcept {
+  Lanes part[kVectors];
+#pragma GCC unroll 4
+  for (std::size_t v = 0; v < kVectors; ++v) part[v] = load(other + v * kLanes);
+  for (std::size_t i = begin; i < end; ++i) {
+    const Lanes factor = all(factors[i]);
+    double* const row = matrix + i * kMatrixStride;
+#pragma GCC unroll 4
+    for (std::size_t v = 0; v < kVectors; ++v)
+      store(row + v * kLanes, load(row + v * kLanes) - factor * part[v]);
+  }
+}
+
+inline void subtract(std::size_t padded, const double* factors, std::size_t begin, std::size_t end,
+                     const double* other, double* matrix) noexcept {
+  std::size_t j = 0;
+  for (; j + 4 * kLanes <= padded; j += 4 * kLanes)
+    subtract_strip<4>(factors, begin, end, other + j, matrix + j);
+  for (; j < padded; j += kLanes) subtract_strip<1>(factors, begin, end, other + j, matrix + j);
 }
 
 template <std::size_t kVectors>
@@ -62,16 +80,18 @@ inline void subtract_tile(const double* factors, std::size_t begin, std::size_t 
   for (std::size_t v = 0; v < kVectors; ++v) store(row + v * kLanes, rest[v]);
 }
 
-inline void subtract_rows(std::size_t n, const double* factors, std::size_t begin, std::size_t end,
+inline void subtract_rows(std::size_t padded, const double* factors, std::size_t begin, std::size_t end,
                           const double* matrix, double* row) noexcept {
   std::size_t j = 0;
-  for (; j + 4 * kLanes <= n; j += 4 * kLanes) subtract_tile<4>(factors, begin, end, matrix + j, row + j);
-  for (; j < n; j += kLanes) subtract_tile<1>(factors, begin, end, matrix + j, row + j);
+  for (; j + 4 * kLanes <= padded; j += 4 * kLanes)
+    subtract_tile<4>(factors, begin, end, matrix + j, row + j);
+  for (; j < padded; j += kLanes) subtract_tile<1>(factors, begin, end, matrix + j, row + j);
 }
 
-inline void advance_row(std::size_t n, const CompanionRows& rows, const double* x, double* out) noexcept {
+inline void advance_row(std::size_t padded, const CompanionRows& rows, const double* x,
+                        double* out) noexcept {
   static_assert(kModeOrder == 3);
-  for (std::size_t j = 0; j < n; j += kLanes) {
+  for (std::size_t j = 0; j < padded; j += kLanes) {
     const Lanes moved = load(rows.shift.data() + j) * load(x + j - 1);
     const Lanes first = load(rows.head[0].data() + j) * load(x + j);
     const Lanes second = load(rows.head[1].data() + j) * load(x + j + 1);
