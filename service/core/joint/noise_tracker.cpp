@@ -50,7 +50,10 @@ double NoiseTracker::level() const noexcept {
 double NoiseTracker::floor() const noexcept { return std::ranges::min(ratio_) / kLeastOfBands; }
 
 bool NoiseTracker::disagrees() const noexcept {
-  return known_ && (level() < kTooQuiet || level() > kTooLoud);
+  if (!known_) return false;
+  if (level() < kTooQuiet) return true;
+  const auto still = std::ranges::count_if(ratio_, [](double ratio) { return ratio <= kMotion; });
+  return 2 * still > static_cast<std::ptrdiff_t>(kBands) && level() > kTooLoud;
 }
 
 }  // namespace gyrod::core

@@ -1,0 +1,259 @@
+// The two-speed estimator beside Butterworth filters tuned on the truth, on a car's reference gyro plus the noise of a still one:
+// RMSE in deg/s over samples 2400..9600, by lag. The tables of docs/method.md.
+//   GYROD_DATA=... joint_study [key=value ...]
+// Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
+// its colour is unknown), source=1 (0: nothing is known), window=1024, hop=32, rate=120 (Hz: the drive resampled by lines),
+// start=0 (first sample of the noise), rivals=1 (0: leaves the Butterworth filters out, which take most of the time), axes=xyz; and the
+// members of core::JointOptions by name.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/evaluation/tuning.hpp"
+#include "core/joint/joint_fit.hpp"
+#include "core/joint/kalman_bank.hpp"
+#include "core/noise/still_noise.hpp"
+#include "support/drive_rows.hpp"
+
+namespace {
+
+using namespace gyrod;
+
+constexpr std::array<std::size_t, 6> kLags = {0, 4, 8, 12, 16, 32};
+
+struct Prototype {
+  const char* row;
+  std::array<double, 3> rmse;  ///< at lag 0, 8, 16: the prototype's
+};
+constexpr std::array<Prototype, 18> kPrototype = {{{"06 x", {.240, .213, .211}},
+                                                   {"06 y", {.241, .205, .203}},
+                                                   {"06 z", {.118, .098, .099}},
+                                                   {"09 x", {.273, .243, .243}},
+                                                   {"09 y", {.262, .225, .225}},
+                                                   {"09 z", {.152, .110, .107}},
+                                                   {"06 x at 0.3", {.092, .088, .087}},
+                                                   {"06 y at 0.3", {.092, .086, .086}},
+                                                   {"06 z at 0.3", {.061, .053, .053}},
+                                                   {"09 x at 0.3", {.101, .098, .097}},
+                                                   {"09 y at 0.3", {.099, .092, .092}},
+                                                   {"09 z at 0.3", {.070, .055, .054}},
+                                                   {"06 x at 3", {.503, .458, .456}},
+                                                   {"06 y at 3", {.504, .446, .439}},
+                                                   {"06 z at 3", {.217, .194, .188}},
+                                                   {"09 x at 3", {.521, .482, .482}},
+                                                   {"09 y at 3", {.500, .441, .431}},
+                                                   {"09 z at 3", {.298, .241, .225}}}};
+
+using Arguments = std::map<std::string, std::string>;
+
+double number(const Arguments& arguments, const std::string& key, double standard) {
+  const auto found = arguments.find(key);
+  return found == arguments.end() ? standard : std::stod(found->second);
+}
+
+test::NoiseChoice noise_choice(const Arguments& arguments) {
+  const auto found = arguments.find("noise");
+  const std::string choice = found == arguments.end() ? "1x" : found->second;
+  test::NoiseChoice noise;
+  noise.file = std::string("adis16405_imu") + choice.at(0) + "_static_100hz.csv.gz";
+  noise.axis = static_cast<std::size_t>(choice.at(1) - 'x');
+  noise.start = static_cast<std::size_t>(number(arguments, "start", 0));
+  return noise;
+}
+
+/// What is believed of the row's noise.
+core::NoiseModel believed(const test::DriveRow& row, const Arguments& arguments) {
+  if (number(arguments, "source", 1) == 0.0) return {};
+  const auto fitted = core::still_noise(row.still_dps);
+  if (!fitted) throw std::runtime_error(row.name + ": no noise model");
+  const bool white = number(arguments, "white", 0) != 0.0;
+  const core::NoiseModel model = white ? core::white_noise(core::noise_variance(*fitted)) : *fitted;
+  return core::scaled(model, number(arguments, "level", core::kNoiseMargin));
+}
+
+/// The row at another sample rate: truth by lines, the noise sample by sample.
+void resample(test::DriveRow& row, double rate_hz) {
+  if (rate_hz == row.rate_hz) return;
+  const double step = row.rate_hz / rate_hz;
+  const auto count = static_cast<std::size_t>(static_cast<double>(row.truth_dps.size() - 1) / step);
+  std::vector<double> truth(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const double at = static_cast<double>(n) * step;
+    const auto k = static_cast<std::size_t>(at);
+    truth[n] = std::lerp(row.truth_dps[k], row.truth_dps[k + 1], at - static_cast<double>(k));
+  }
+  std::vector<double> noisy(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t source = n % row.noisy_dps.size();
+    noisy[n] = truth[n] + row.noisy_dps[source] - row.truth_dps[source];
+  }
+  row.truth_dps = std::move(truth);
+  row.noisy_dps = std::move(noisy);
+  row.rate_hz = rate_hz;
+}
+
+core::JointOptions options_of(const Arguments& arguments) {
+  core::JointOptions options;
+  const auto set = [&arguments](const char* key, auto& member) {
+    member = static_cast<std::decay_t<decltype(member)>>(number(arguments, key, static_cast<double>(member)));
+  };
+  options.hop_samples = static_cast<std::size_t>(number(arguments, "hop", 32));
+  set("least_excess", options.least_excess);
+  set("slow_period_samples", options.slow_period_samples);
+  set("tapers", options.tapers);
+  set("recency", options.recency);
+  set("full_iterations", options.full_iterations);
+  set("pruned_iterations", options.pruned_iterations);
+  set("bandwidth_cycles", options.bandwidth_cycles);
+  set("prune_gain", options.prune_gain);
+  set("pole_factor", options.pole_factor);
+  set("level_pole", options.level_pole);
+  set("slope_pole", options.slope_pole);
+  set("agile_drive", options.agile_drive);
+  set("drive_ratio", options.drive_ratio);
+  set("agile_log_prior", options.agile_log_prior);
+  set("drive_log_prior", options.drive_log_prior);
+  set("likelihood_memory", options.likelihood_memory);
+  set("hand_over_samples", options.hand_over_samples);
+  set("correction_rate", options.correction_rate);
+  return options;
+}
+
+struct Figures {
+  std::array<double, kLags.size()> rmse{};
+  double normalised_error = 0.0;  ///< mean of error^2 / published variance, lag 16
+  double innovation = 0.0;        ///< mean of nu^2 / S
+  double alarm = 0.0;             ///< part of the windows whose noise is said to be wrong
+};
+
+Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Arguments& arguments) {
+  const auto hop = static_cast<std::size_t>(number(arguments, "hop", 32));
+  const auto window = static_cast<std::size_t>(number(arguments, "window", 1024));
+  const core::JointOptions options = options_of(arguments);
+  core::JointFit fit(window, options);
+  std::vector<core::KalmanBank> banks;
+  for (const std::size_t lag : kLags) banks.emplace_back(options, lag);
+  const auto model = std::make_unique<core::JointModel>();
+  core::WindowReport report;
+  const auto begin = static_cast<std::size_t>(20.0 * row.rate_hz);
+  const std::size_t end = std::min(static_cast<std::size_t>(80.0 * row.rate_hz), row.noisy_dps.size() - 32);
+  Figures figures;
+  double windows = 0.0;
+  std::size_t judged = 0;
+  for (std::size_t t = 0; t < end + 32; ++t) {
+    const std::size_t to = t >= hop && t % hop == 0 ? t - hop : 0;
+    if (to >= core::JointFit::kMinSamples) {
+      const std::size_t from = to - std::min(to, window);
+      fit.fit(std::span(row.noisy_dps).subspan(from, to - from), noise, *model, report);
+      for (auto& bank : banks) bank.use(*model);
+      if (t >= begin) {
+        windows += 1.0;
+        figures.alarm += model->noise.disagrees() ? 1.0 : 0.0;
+      }
+    }
+    for (std::size_t i = 0; i < kLags.size(); ++i) {
+      const core::BankEstimate estimate = banks[i].step(row.noisy_dps[t]).denoised;
+      if (t < begin + kLags[i] || t >= end + kLags[i]) continue;
+      const double error = estimate.rate - row.truth_dps[t - kLags[i]];
+      if (std::isnan(error)) continue;
+      if (kLags[i] == 16) ++judged;
+      figures.rmse[i] += error * error;
+      if (kLags[i] == 16) figures.normalised_error += error * error / estimate.variance;
+      if (kLags[i] == 16) figures.innovation += banks[i].normalised_innovation();
+    }
+  }
+  const auto count = static_cast<double>(judged);
+  for (double& sum : figures.rmse) sum = std::sqrt(sum / count);
+  figures.normalised_error /= count;
+  figures.innovation /= count;
+  figures.alarm /= windows;
+  return figures;
+}
+
+std::array<double, kLags.size()> best_butterworth(const test::DriveRow& row) {
+  std::array<double, kLags.size()> best{};
+  best.fill(1e9);
+  const auto begin = static_cast<std::size_t>(20.0 * row.rate_hz);
+  const std::size_t end = std::min(static_cast<std::size_t>(80.0 * row.rate_hz), row.noisy_dps.size() - 32);
+  for (const core::Rival rival :
+       {core::Rival::kButterworth1, core::Rival::kButterworth2, core::Rival::kButterworth4}) {
+    const auto tuned = core::tune(rival, {row.noisy_dps, row.truth_dps, {begin, end}}, kLags);
+    for (std::size_t i = 0; i < kLags.size(); ++i) best[i] = std::min(best[i], tuned[i].rmse);
+  }
+  return best;
+}
+
+void print(const char* what, const std::array<double, kLags.size()>& values) {
+  std::printf("%s", what);
+  for (const double value : values) std::printf(" %5.3f", value);
+}
+
+int study(const Arguments& arguments) {
+  std::printf("%-12s %41s", "row", "RMSE at lag 0, 4, 8, 12, 16, 32");
+  std::printf(" | of Butterworth's | of the prototype's 0, 8, 16 | NEE, NIS, alarm\n");
+  const bool rivals = number(arguments, "rivals", 1) != 0.0;
+  double worst_rival = 0.0;
+  double worst_prototype = 0.0;
+  double sum = 0.0;
+  std::size_t index = 0;
+  std::size_t cells = 0;
+  const auto axes = arguments.find("axes");
+  for (auto& row : test::drive_rows(noise_choice(arguments))) {
+    const auto& prototype = kPrototype[index++].rmse;
+    if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
+    const core::NoiseModel noise = believed(row, arguments);
+    resample(row, number(arguments, "rate", 120));
+    const Figures figures = run(row, noise, arguments);
+    std::printf("%-12s ", row.name.c_str());
+    print("", figures.rmse);
+    if (rivals) {
+      auto ratios = best_butterworth(row);
+      for (std::size_t i = 0; i < kLags.size(); ++i) {
+        ratios[i] = figures.rmse[i] / ratios[i];
+        worst_rival = std::max(worst_rival, ratios[i]);
+      }
+      print(" |", ratios);
+    }
+    std::printf(" |");
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double ratio = figures.rmse[2 * i] / prototype[i];
+      worst_prototype = std::max(worst_prototype, ratio);
+      sum += std::log(ratio);
+      ++cells;
+      std::printf(" %5.3f", ratio);
+    }
+    std::printf(" | %4.2f %4.2f %4.2f\n", figures.normalised_error, figures.innovation, figures.alarm);
+    std::fflush(stdout);
+  }
+  std::printf("worst of Butterworth's %.3f, of the prototype's %.3f; geometric mean of the latter %.4f\n",
+              worst_rival, worst_prototype, std::exp(sum / static_cast<double>(cells)));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const auto equals = argument.find('=');
+    if (equals == std::string::npos) {
+      std::fprintf(stderr, "joint_study: %s; expected key=value\n", argv[i]);
+      return 2;
+    }
+    arguments[argument.substr(0, equals)] = argument.substr(equals + 1);
+  }
+  if (!test::has_drive_rows(noise_choice(arguments))) {
+    std::fprintf(stderr, "joint_study: no recordings in %s\n", test::data_folder().c_str());
+    return 1;
+  }
+  return study(arguments);
+}
