@@ -12,16 +12,13 @@
 namespace gyrod::core {
 namespace {
 
-constexpr std::size_t kLags = kModeOrder + 1;
-static_assert(kModeOrder == 3, "spectrum_of() is written out for three coefficients");
-
-/// Smallest |a|^2 that a spectrum is divided by: a pole 1e-12 from the unit circle, far below what the fit can tell.
-constexpr double kLeastResponse = 1e-24;
+constexpr std::size_t kLags = kModeLags;
 
 }  // namespace
 
-WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles)
-    : bins_(transform_samples / 2 + 1),
+WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles, EmdKernel kernel)
+    : kernel_(&spectral_kernel(kernel)),
+      bins_(transform_samples / 2 + 1),
       cosines_(kLags * bins_),
       sines_(kLags * bins_),
       weights_(kLags * bins_),
@@ -29,7 +26,6 @@ WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles)
       observed_(bins_),
       sum_(bins_),
       deviation_(bins_),
-      posterior_(bins_),
       spectra_(kMaxModes * bins_) {
   const auto length = static_cast<double>(transform_samples);
   for (std::size_t lag = 0; lag < kLags; ++lag) {
@@ -93,12 +89,14 @@ double WhittleFit::log_likelihood(const ModeSet& modes) noexcept {
 }
 
 double WhittleFit::centre_cycles(const SpectralMode& mode) noexcept {
-  spectrum_of(mode, posterior_);
+  const auto spectrum = row(0);
+  std::ranges::fill(sum_, 0.0);
+  kernel_->add_spectrum(bins_, mode, cosines_.data(), sines_.data(), spectrum.data(), sum_.data());
   double power = 0.0;
   double moment = 0.0;
   for (std::size_t k = 0; k < bins_; ++k) {
-    power += posterior_[k];
-    moment += posterior_[k] * static_cast<double>(k);
+    power += spectrum[k];
+    moment += spectrum[k] * static_cast<double>(k);
   }
   return power > 0.0 ? 0.5 * moment / power / static_cast<double>(bins_ - 1) : 0.0;
 }
@@ -117,36 +115,15 @@ SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool sl
 void WhittleFit::sum_spectra(const ModeSet& modes) noexcept {
   std::ranges::copy(noise_, sum_.begin());
   for (std::size_t j = 0; j < modes.size(); ++j) {
-    const auto spectrum = row(j);
-    spectrum_of(modes.modes()[j], spectrum);
-    for (std::size_t k = 0; k < bins_; ++k) sum_[k] += spectrum[k];
-  }
-}
-
-/// drive / |a|^2, from real and imaginary part: near zero frequency the coefficients of |a|^2 itself would cancel.
-void WhittleFit::spectrum_of(const SpectralMode& mode, std::span<double> out) const noexcept {
-  const double* const cosine = cosines_.data();
-  const double* const sine = sines_.data();
-  const std::size_t n = bins_;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double real =
-        1.0 - mode.a[0] * cosine[n + k] - mode.a[1] * cosine[2 * n + k] - mode.a[2] * cosine[3 * n + k];
-    const double imaginary =
-        mode.a[0] * sine[n + k] + mode.a[1] * sine[2 * n + k] + mode.a[2] * sine[3 * n + k];
-    out[k] = mode.drive / (real * real + imaginary * imaginary + kLeastResponse);
+    kernel_->add_spectrum(bins_, modes.modes()[j], cosines_.data(), sines_.data(), row(j).data(),
+                          sum_.data());
   }
 }
 
 /// post_j = S_j + S_j^2 (I - M) / M^2, and the model that has its autocovariances.
 void WhittleFit::maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept {
-  for (std::size_t k = 0; k < bins_; ++k) {
-    posterior_[k] = spectrum[k] + spectrum[k] * spectrum[k] * deviation_[k];
-  }
   std::array<double, kLags> r{};
-  for (std::size_t lag = 0; lag < kLags; ++lag) {
-    const std::span<const double> weights{weights_.data() + lag * bins_, bins_};
-    r[lag] = sum_of(posterior_, weights, [](auto power, auto weight) { return power * weight; });
-  }
+  kernel_->autocovariances(bins_, spectrum.data(), deviation_.data(), weights_.data(), r.data());
   mode = mode_of(r, mode.slow);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/joint/joint_options.hpp"
+#include "core/joint/spectral_kernel.hpp"
 #include "core/joint/spectral_mode.hpp"
 #include "core/noise/noise_model.hpp"
 
@@ -21,7 +22,8 @@ namespace gyrod::core {
 class WhittleFit {
  public:
   /// @param transform_samples a power of two, at least 8: frequencies are 2 pi k / transform_samples, k = 0 .. half of it
-  WhittleFit(std::size_t transform_samples, double bandwidth_cycles);
+  /// @param kernel all that are available give the same bits
+  WhittleFit(std::size_t transform_samples, double bandwidth_cycles, EmdKernel kernel = EmdKernel::kFastest);
 
   /// Takes the window's periodogram and the noise, both in the same unit. The noise's spectrum is computed only where it changed.
   /// @pre periodogram has transform_samples / 2 + 1 bins; is_usable(noise)
@@ -47,13 +49,13 @@ class WhittleFit {
 
  private:
   void sum_spectra(const ModeSet& modes) noexcept;
-  void spectrum_of(const SpectralMode& mode, std::span<double> out) const noexcept;
   void maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept;
   [[nodiscard]] double gain_of(std::span<const double> spectrum) const noexcept;
   [[nodiscard]] std::span<double> row(std::size_t mode) noexcept {
     return {spectra_.data() + mode * bins_, bins_};
   }
 
+  const SpectralKernel* kernel_;
   std::size_t bins_;
   NoiseModel noise_model_;
   std::array<double, kModeOrder + 1> narrowing_{};  ///< lag window of the modes that are not slow
@@ -64,8 +66,7 @@ class WhittleFit {
   std::vector<double> observed_;
   std::vector<double> sum_;        ///< M
   std::vector<double> deviation_;  ///< (I - M) / M^2
-  std::vector<double> posterior_;
-  std::vector<double> spectra_;  ///< kMaxModes rows: S_j
+  std::vector<double> spectra_;    ///< kMaxModes rows: S_j
 };
 
 }  // namespace gyrod::core

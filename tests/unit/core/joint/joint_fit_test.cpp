@@ -94,6 +94,18 @@ TEST(JointFit, ScalingByAPowerOfTwoScalesTheVariancesOnly) {
   }
 }
 
+// The blocks are in parts of the noise's variance, the variances of a member in the data's unit.
+TEST(JointFit, MembersAreDesignedForTheirBlocks) {
+  constexpr double kVariance = 0.09;
+  const JointModel model = fitted(window(), core::white_noise(kVariance));
+  for (const MemberModel& member : model.members) {
+    MemberModel again;
+    ASSERT_TRUE(core::MemberDesigner().design(member.blocks, 1.0, again));
+    EXPECT_NEAR(member.innovation_variance, again.innovation_variance * kVariance, 1e-9);
+    EXPECT_NEAR(member.prediction_variance, again.prediction_variance * kVariance, 1e-9);
+  }
+}
+
 // A white part of 1e-300 beside a colour of 1 overflows in the Riccati equation.
 TEST(JointFit, AMemberThatFailsKeepsWhatItHad) {
   JointFit fit(kWindow);

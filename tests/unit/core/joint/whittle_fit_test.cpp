@@ -188,6 +188,28 @@ TEST(WhittleFit, ANewNoiseIsTakenUp) {
   EXPECT_NEAR(fit.log_likelihood({}), -(std::log(4.0) + 0.75) * static_cast<double>(kTransform / 2), 1e-9);
 }
 
+TEST(WhittleFit, GivesTheSameBitsOnEveryKernel) {
+  const ModeSet truth = set_of({oscillation(0.97, 0.3, 0.5), slow_mode(0.995, 0.05)});
+  const ModeSet start = set_of({oscillation(0.8, 0.6, 1.0), slow_mode(0.9, 1.0)});
+  const Signal power = drawn_periodogram(truth, 1);
+  const auto fitted = [&](EmdKernel kernel) {
+    WhittleFit fit(kTransform, 0.001, kernel);
+    fit.observe(power, white_noise(1.0));
+    ModeSet modes = start;
+    fit.iterate(modes, 20);
+    return modes;
+  };
+  const ModeSet baseline = fitted(EmdKernel::kBaseline);
+  for (const EmdKernel kernel : {EmdKernel::kAvx2, EmdKernel::kAvx512, EmdKernel::kFastest}) {
+    if (!is_available(kernel)) continue;
+    const ModeSet modes = fitted(kernel);
+    for (std::size_t j = 0; j < modes.size(); ++j) {
+      EXPECT_EQ(modes.modes()[j].a, baseline.modes()[j].a);
+      EXPECT_EQ(modes.modes()[j].drive, baseline.modes()[j].drive);
+    }
+  }
+}
+
 TEST(WhittleFit, AllocatesNothingAfterConstruction) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
   const Signal power(kBins, 2.0);

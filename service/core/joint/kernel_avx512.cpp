@@ -1,9 +1,10 @@
-/// The kernels of small matrices for AVX-512: registers of eight doubles. Only what stands between push and pop is
+/// The kernels of the slow loop for AVX-512: registers of eight doubles. Only what stands between push and pop is
 /// compiled for it, as in core/emd.
 #include <cstddef>
 #include <cstdint>
 
 #include "core/joint/matrix_kernel.hpp"
+#include "core/joint/spectral_kernel.hpp"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -20,6 +21,7 @@
 // clang-format off
 #include "core/emd/vector_lanes.hpp"
 #include "core/joint/vector_matrix.hpp"
+#include "core/joint/vector_spectral.hpp"
 // clang-format on
 #ifdef __clang__
 #pragma clang attribute pop
@@ -31,6 +33,7 @@ namespace gyrod::core {
 
 const MatrixKernel kAvx512Matrix{avx512::multiply, avx512::subtract, avx512::subtract_rows,
                                  avx512::advance_row};
+const SpectralKernel kAvx512Spectral{avx512::add_spectrum, avx512::autocovariances};
 
 }  // namespace gyrod::core
 #endif
