@@ -51,6 +51,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   report.mean = mean(window);
   centred_.resize(window.size());
   for (std::size_t n = 0; n < window.size(); ++n) centred_[n] = window[n] - report.mean;
+  if (std::ranges::all_of(centred_, [](double value) { return value == 0.0; })) return;
   tapers_.spectrum(centred_, periodogram_);
   judge_noise(noise, model.noise, report);
   const Tone tone = find_tone(periodogram_);

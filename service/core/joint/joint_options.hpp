@@ -26,7 +26,7 @@ struct JointOptions {
   /// Recency-warped sine tapers that are averaged. Range 1..8.
   std::size_t tapers = 2;
   /// How strongly the tapers look at the newest samples; 0 looks at all alike. Range 0..20.
-  double recency = 4.0;
+  double recency = 3.0;
   /// Iterations of the EM fit: of the full set of modes, and of the pruned set before and after pruning. Range 1..100.
   int full_iterations = 20;
   int pruned_iterations = 5;
