@@ -44,16 +44,20 @@ double NoiseTracker::level() const noexcept {
     sum += std::max(ratio, 1.0 / kMotion);
     count += 1.0;
   }
-  return count > 0.0 ? sum / count : 1.0;
+  if (count == 0.0) return 1.0;
+  const double mean = sum / count;
+  return is_quiet() ? mean : std::min(mean, 1.0);
 }
 
 double NoiseTracker::floor() const noexcept { return std::ranges::min(ratio_) / kLeastOfBands; }
 
 bool NoiseTracker::disagrees() const noexcept {
-  if (!known_) return false;
-  if (level() < kTooQuiet) return true;
+  return known_ && (level() < kTooQuiet || level() > kTooLoud);
+}
+
+bool NoiseTracker::is_quiet() const noexcept {
   const auto still = std::ranges::count_if(ratio_, [](double ratio) { return ratio <= kMotion; });
-  return 2 * still > static_cast<std::ptrdiff_t>(kBands) && level() > kTooLoud;
+  return 2 * still > static_cast<std::ptrdiff_t>(kBands);
 }
 
 }  // namespace gyrod::core

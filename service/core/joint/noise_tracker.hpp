@@ -23,8 +23,8 @@ class NoiseTracker {
   void observe(std::span<const double> periodogram, std::span<const double> noise, bool known,
                double share) noexcept;
 
-  /// Power of the noise in parts of the believed one: the mean over the bands that do not hold motion, none counted below 1 / kBound;
-  /// 1 where all hold motion.
+  /// Power of the noise in parts of the believed one: the mean over the bands that do not hold motion, none counted below one half.
+  /// 1 where all hold motion, and not above 1 where half of them do: on a rough road every band holds some.
   [[nodiscard]] double level() const noexcept;
 
   /// Power of the quietest band, raised by what the least of kBands estimates lies below their mean.
@@ -34,6 +34,9 @@ class NoiseTracker {
   [[nodiscard]] bool disagrees() const noexcept;
 
  private:
+  /// Most bands hold no motion.
+  [[nodiscard]] bool is_quiet() const noexcept;
+
   std::array<double, kBands> ratio_{};
   double weight_ = 0.0;  ///< of what was observed, in windows
   bool known_ = false;
