@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace gyrod::core {
 namespace {
@@ -11,6 +12,9 @@ constexpr double kMemory = 3.0;
 /// A band this far above the believed noise holds motion. A level that is 20 % too low (1.56 in power), with a colour unknown to a
 /// quarter, stays below it. Source: docs/method.md, "When the noise is not as believed".
 constexpr double kMotion = 2.0;
+/// A level above the believed one is taken for more than it shows, level^kExcessPower: the bands in which it shows most are left out as
+/// motion, and a level that is too low costs several times what one costs that is too high.
+constexpr double kExcessPower = 1.5;
 /// Beyond these the noise is said to be wrong: the spread of level() on the right noise is 0.9 to 1.3.
 constexpr double kTooQuiet = 0.8;
 constexpr double kTooLoud = 1.4;
@@ -46,7 +50,8 @@ double NoiseTracker::level() const noexcept {
   }
   if (count == 0.0) return 1.0;
   const double mean = sum / count;
-  return is_quiet() ? mean : std::min(mean, 1.0);
+  if (mean <= 1.0) return mean;
+  return is_quiet() ? std::pow(mean, kExcessPower) : 1.0;
 }
 
 double NoiseTracker::floor() const noexcept { return std::ranges::min(ratio_) / kLeastOfBands; }

@@ -24,6 +24,7 @@ class NoiseTracker {
                double share) noexcept;
 
   /// Power of the noise in parts of the believed one: the mean over the bands that do not hold motion, none counted below one half.
+  /// A mean above 1 is raised to the power 1.5: a level too low does more harm than one too high, and the loudest bands are left out.
   /// 1 where all hold motion, and not above 1 where half of them do: on a rough road every band holds some.
   [[nodiscard]] double level() const noexcept;
 

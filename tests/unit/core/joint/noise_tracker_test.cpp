@@ -1,5 +1,6 @@
 #include "core/joint/noise_tracker.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -31,15 +32,15 @@ TEST(NoiseTracker, SaysOneWhereTheNoiseIsAsBelieved) {
 }
 
 TEST(NoiseTracker, FindsALevelBelievedTooLowOrTooHigh) {
-  // A deviation believed 20 % too low and 20 % too high: 1 / 0.8^2 and 1 / 1.2^2 in power.
-  EXPECT_NEAR(watched(spectrum(1.5625)).level(), 1.5625, 1e-12);
+  // A deviation believed 20 % too low and 20 % too high: 1 / 0.8^2 and 1 / 1.2^2 in power; what is above 1 is raised to 1.5.
+  EXPECT_NEAR(watched(spectrum(1.5625)).level(), std::pow(1.5625, 1.5), 1e-12);
   EXPECT_TRUE(watched(spectrum(1.5625)).disagrees());
   EXPECT_NEAR(watched(spectrum(0.6944)).level(), 0.6944, 1e-12);
   EXPECT_TRUE(watched(spectrum(0.6944)).disagrees());
 }
 
 TEST(NoiseTracker, LeavesBandsOutThatHoldMotion) {
-  EXPECT_NEAR(watched(spectrum(1.3, 1000.0, 3)).level(), 1.3, 1e-12);
+  EXPECT_NEAR(watched(spectrum(1.3, 1000.0, 3)).level(), std::pow(1.3, 1.5), 1e-12);
 }
 
 TEST(NoiseTracker, DoesNotTakeARoughRoadForNoise) {
@@ -54,7 +55,7 @@ TEST(NoiseTracker, ForgetsWithinSomeWindowsLengths) {
   // A memory of three windows' lengths: after nine more (288 of 32 a window) e^-3 of the old is left.
   NoiseTracker tracker = watched(spectrum(1.5), true, 200);
   for (int i = 0; i < 288; ++i) tracker.observe(spectrum(1.0), Spectrum(kBins, 1.0), true, kShare);
-  EXPECT_NEAR(tracker.level(), 1.0, 0.5 * 0.06);
+  EXPECT_NEAR(tracker.level(), 1.0, 1.5 * 0.5 * 0.06);
   EXPECT_GT(tracker.level(), 1.0);
 }
 
