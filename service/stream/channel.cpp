@@ -37,7 +37,7 @@ Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMe
 void Channel::append(const Sample& sample, bool measured) {
   ring.append(sample, measured);
   if (!learner) return;
-  learner->step(sample, measured);
+  learner->step(sample, measured, gate.rate_hz());
   if (const auto update = learner->update()) noise = *update;
 }
 

@@ -27,7 +27,8 @@ class NoiseLearner {
   virtual ~NoiseLearner() = default;
   /// Takes the next position of the uniform time base.
   /// @param measured false for a bridged position: its rates are interpolated, number and stamp those of the sample before
-  virtual void step(const Sample& sample, bool measured) noexcept = 0;
+  /// @param sample_rate_hz of the channel as known by now: configured or from the stamps, which may change it; 0 while unknown
+  virtual void step(const Sample& sample, bool measured, double sample_rate_hz) noexcept = 0;
   /// Asked after every step: the noise to use from here on, where the step has changed what is known. Windows that end with this
   /// sample or later are given it; those that wait for a worker keep what they had.
   [[nodiscard]] virtual std::optional<ChannelNoise> update() noexcept = 0;

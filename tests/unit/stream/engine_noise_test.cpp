@@ -23,7 +23,7 @@ ChannelNoise noise_of(NoiseSource source, double variance) {
 class CountingLearner final : public NoiseLearner {
  public:
   explicit CountingLearner(std::uint64_t every) : every_(every) {}
-  void step(const Sample& /*sample*/, bool measured) noexcept override {
+  void step(const Sample& /*sample*/, bool measured, double /*sample_rate_hz*/) noexcept override {
     ++steps_;
     measured_ += measured ? 1U : 0U;
   }

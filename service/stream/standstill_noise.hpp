@@ -1,0 +1,72 @@
+/// A channel's noise from a calibration, from what was learned earlier, and from what is learned while it runs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+#include "core/noise/standstill_learner.hpp"
+#include "stream/noise_learner.hpp"
+
+namespace gyrod::stream {
+
+/// What a calibration says of one sensor.
+struct CalibratedNoise {
+  double sample_rate_hz = 0.0;                   ///< that the models hold for, above 0
+  std::array<core::NoiseModel, kAxes> models{};  ///< (rad/s)^2, as measured, without core::kNoiseMargin
+};
+
+/// What StandstillNoise begins with.
+struct StandstillOptions {
+  double sample_rate_hz = 0.0;  ///< configured; 0: found from the stamps
+  /// In use instead of anything learned.
+  std::optional<CalibratedNoise> calibrated;
+  /// Whether what is learned is in use where nothing is calibrated. It is learned in any case.
+  bool use_learned = true;
+  /// Of an earlier run.
+  std::optional<core::StandstillState> remembered;
+  /// Told of every change of the learned models, from the thread that pushes. Must not throw; may be empty.
+  std::function<void(const core::StandstillState&)> on_learned;
+};
+
+/// The models as a channel uses them: core::kNoiseMargin as strong. An axis whose model is not usable, one that the calibrated recording
+/// did not have or that never changed, is given the strongest of the others.
+/// @return source kNone where no axis has a usable model
+[[nodiscard]] ChannelNoise channel_noise(NoiseSource source,
+                                         const std::array<core::NoiseModel, kAxes>& models) noexcept;
+
+/// What is known before the first sample: the calibration, at the configured sample rate if there is one; else what is remembered, if
+/// it may be used and is of the configured rate.
+[[nodiscard]] ChannelNoise noise_beforehand(const StandstillOptions& options) noexcept;
+
+/// core::StandstillLearner for a channel. The sample rate that it and the calibration are used at is the configured one. Without one
+/// it is that of the calibration or of what is remembered, until the stamps have said otherwise (by more than 2 %, and always the same)
+/// for kAgreeing samples in a row; then it is theirs: a calibration goes through core::at_rate(), and learning begins anew.
+/// Bridged positions are gaps to the learner: what is interpolated has less noise.
+class StandstillNoise final : public NoiseLearner {
+ public:
+  static constexpr std::size_t kAgreeing = 256;
+
+  explicit StandstillNoise(StandstillOptions options);
+
+  void step(const Sample& sample, bool measured, double sample_rate_hz) noexcept override;
+  [[nodiscard]] std::optional<ChannelNoise> update() noexcept override;
+  void reset_segment() noexcept override;
+  [[nodiscard]] bool at_rest() const noexcept override { return learner_.at_rest(); }
+
+ private:
+  void follow_rate(double sample_rate_hz) noexcept;
+  void take_rate(double sample_rate_hz) noexcept;
+  [[nodiscard]] ChannelNoise known() const noexcept;
+
+  StandstillOptions options_;
+  double rate_hz_;  ///< in use; 0 while nothing is known of it
+  double other_rate_hz_ = 0.0;
+  std::size_t agreeing_ = 0;
+  bool rate_changed_ = false;
+  core::StandstillLearner learner_;
+  std::uint64_t revision_ = 0;  ///< of the learner, that was told
+};
+
+}  // namespace gyrod::stream
