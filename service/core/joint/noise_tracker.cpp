@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/signal/moments.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -12,9 +14,12 @@ constexpr double kMemory = 3.0;
 /// A band this far above the believed noise holds motion. A level that is 20 % too low (1.56 in power), with a colour unknown to a
 /// quarter, stays below it. Source: docs/method.md, "When the noise is not as believed".
 constexpr double kMotion = 2.0;
-/// A level above the believed one is taken for more than it shows, level^kExcessPower: the bands in which it shows most are left out as
-/// motion, and a level that is too low costs several times what one costs that is too high.
-constexpr double kExcessPower = 1.5;
+/// Above the believed level, what the bands show is raised to these powers, their mean and the mean of the quietest three, and the smaller
+/// is taken: the loudest bands are left out as motion, and a level too low costs several times what one too high costs; but vibration,
+/// unlike noise, leaves some bands as they were.
+constexpr double kMeanPower = 1.5;
+constexpr double kQuietestPower = 6.0;
+constexpr std::size_t kQuietest = 3;
 /// Beyond these the noise is said to be wrong: the spread of level() on the right noise is 0.9 to 1.3.
 constexpr double kTooQuiet = 0.8;
 constexpr double kTooLoud = 1.4;
@@ -41,28 +46,22 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
 }
 
 double NoiseTracker::level() const noexcept {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const double ratio : ratio_) {
-    if (ratio > kMotion) continue;
-    sum += std::max(ratio, 1.0 / kMotion);
-    count += 1.0;
-  }
-  if (count == 0.0) return 1.0;
-  const double mean = sum / count;
-  if (mean <= 1.0) return mean;
-  return is_quiet() ? std::pow(mean, kExcessPower) : 1.0;
+  std::array<double, kBands> sorted = ratio_;
+  std::ranges::sort(sorted);
+  const auto motion = std::ranges::find_if(sorted, [](double ratio) { return ratio > kMotion; });
+  const std::span<const double> quiet{sorted.begin(), motion};
+  if (quiet.empty()) return 1.0;
+  const double all = mean(quiet);
+  if (all <= 1.0) return std::max(all, 1.0 / kMotion);
+  if (2 * quiet.size() <= kBands) return 1.0;
+  const double quietest = mean(quiet.first(kQuietest));
+  return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest, kQuietestPower)));
 }
 
 double NoiseTracker::floor() const noexcept { return std::ranges::min(ratio_) / kLeastOfBands; }
 
 bool NoiseTracker::disagrees() const noexcept {
   return known_ && (level() < kTooQuiet || level() > kTooLoud);
-}
-
-bool NoiseTracker::is_quiet() const noexcept {
-  const auto still = std::ranges::count_if(ratio_, [](double ratio) { return ratio <= kMotion; });
-  return 2 * still > static_cast<std::ptrdiff_t>(kBands);
 }
 
 }  // namespace gyrod::core

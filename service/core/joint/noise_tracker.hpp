@@ -23,9 +23,9 @@ class NoiseTracker {
   void observe(std::span<const double> periodogram, std::span<const double> noise, bool known,
                double share) noexcept;
 
-  /// Power of the noise in parts of the believed one: the mean over the bands that do not hold motion, none counted below one half.
-  /// A mean above 1 is raised to the power 1.5: a level too low does more harm than one too high, and the loudest bands are left out.
-  /// 1 where all hold motion, and not above 1 where half of them do: on a rough road every band holds some.
+  /// Power of the noise in parts of the believed one, from the bands that do not hold motion: their mean where that is below 1, at
+  /// least one half. Above 1 the smaller of mean^1.5 and (mean of the quietest three)^6, and at least 1. Not above 1 where half of
+  /// the bands hold motion: on a rough road every band holds some.
   [[nodiscard]] double level() const noexcept;
 
   /// Power of the quietest band, raised by what the least of kBands estimates lies below their mean.
@@ -35,9 +35,6 @@ class NoiseTracker {
   [[nodiscard]] bool disagrees() const noexcept;
 
  private:
-  /// Most bands hold no motion.
-  [[nodiscard]] bool is_quiet() const noexcept;
-
   std::array<double, kBands> ratio_{};
   double weight_ = 0.0;  ///< of what was observed, in windows
   bool known_ = false;

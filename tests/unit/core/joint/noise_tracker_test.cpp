@@ -49,6 +49,11 @@ TEST(NoiseTracker, DoesNotTakeARoughRoadForNoise) {
   EXPECT_FALSE(watched(spectrum(50.0)).disagrees());
 }
 
+TEST(NoiseTracker, DoesNotTakeVibrationInSomeBandsForNoise) {
+  Spectrum bins = spectrum(1.0, 0.8, 5);
+  EXPECT_DOUBLE_EQ(watched(bins).level(), 1.0);
+}
+
 TEST(NoiseTracker, FollowsNoFurtherThanToOneHalf) { EXPECT_DOUBLE_EQ(watched(spectrum(1e-6)).level(), 0.5); }
 
 TEST(NoiseTracker, ForgetsWithinSomeWindowsLengths) {
