@@ -1,13 +1,13 @@
 #include <array>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <spdlog/fmt/fmt.h>
 
+#include "app/angle_units.hpp"
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
@@ -21,7 +21,6 @@
 namespace gyrod::app {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSqrtSecondsPerSqrtHour = 60.0;
 
 struct CalibrateFlags {

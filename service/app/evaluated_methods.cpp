@@ -1,8 +1,8 @@
 #include "app/evaluated_methods.hpp"
 
-#include <numbers>
 #include <utility>
 
+#include "app/angle_units.hpp"
 #include "app/joint_contender.hpp"
 #include "app/record_denoiser.hpp"
 #include "core/denoise/scheme.hpp"
@@ -13,7 +13,6 @@
 namespace gyrod::app {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr const char* kJoint = "joint";
 constexpr const char* kRealtime = "realtime";
 

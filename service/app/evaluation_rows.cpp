@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <utility>
 
+#include "app/angle_units.hpp"
 #include "core/signal/interpolation.hpp"
 #include "core/signal/moments.hpp"
 #include "files/column_names.hpp"
@@ -16,7 +16,6 @@
 namespace gyrod::app {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::size_t kFewestSamples = 100;
 
 std::size_t index_of(const std::string& axis) { return static_cast<std::size_t>(axis.back() - 'x'); }

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 
+#include "app/angle_units.hpp"
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
@@ -20,8 +20,6 @@
 
 namespace gyrod::app {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 struct NavigateFlags {
   std::string input;

@@ -1,10 +1,10 @@
 #include "app/navigation_comparison.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
+#include "app/angle_units.hpp"
 #include "app/navigation_setup.hpp"
 #include "app/navigation_starts.hpp"
 #include "core/inertial/attitude.hpp"
@@ -12,8 +12,6 @@
 
 namespace gyrod::app {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 using Errors = std::vector<NavigationErrorSample>;
 using MaybeTruth = std::optional<files::NavigationTruth>;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "app/angle_units.hpp"
 #include "app/navigation_starts.hpp"
 #include "core/inertial/truth_calibration.hpp"
 #include "files/file_error.hpp"
@@ -11,7 +11,6 @@
 namespace gyrod::app {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// A truth that stays below this speed says nothing of the heading, m/s: a receiver's noise is a tenth of it.
 constexpr double kLeastSpeedForHeading_mps = 1.0;
 

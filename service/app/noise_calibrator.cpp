@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <span>
 #include <vector>
 
 #include <spdlog/fmt/fmt.h>
 
+#include "app/angle_units.hpp"
 #include "core/noise/noise_units.hpp"
 #include "core/noise/still_noise.hpp"
 #include "core/signal/moments.hpp"
@@ -22,7 +22,6 @@ namespace {
 using Samples = std::span<const double>;
 using core::RestVerdict;
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kSqrtSecondsPerSqrtHour = 60.0;
 /// Stretches that are named one by one.
 constexpr std::size_t kNamedStretches = 5;

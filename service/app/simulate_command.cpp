@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 
+#include "app/angle_units.hpp"
 #include "app/command.hpp"
 #include "app/errors.hpp"
 #include "app/exit_code.hpp"
@@ -18,7 +18,6 @@
 namespace gyrod::app {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSecondsPerHour = 3600.0;
 
 /// Error terms in the units of data sheets; the defaults are those of core::GyroErrorOptions.

@@ -5,7 +5,8 @@
 namespace gyrod::core {
 namespace {
 
-constexpr double kSameLevel = 1.5;
+/// Largest ratio of variances of one noise.
+constexpr double kSameNoise = 1.5;
 constexpr std::size_t kLookEvery = 1U << 16U;
 
 /// A stretch with the mean of its windows' variances.
@@ -43,7 +44,7 @@ void keep_quiet(const std::vector<Measured>& all, StillSearch& result) {
   const Triple least = quietest(all);
   for (const Measured& one : all) {
     bool loud = false;
-    for (std::size_t axis = 0; axis < 3; ++axis) loud = loud || one.variance[axis] > kSameLevel * least[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) loud = loud || one.variance[axis] > kSameNoise * least[axis];
     (loud ? result.louder : result.still) += one.stretch.size;
     if (!loud) result.stretches.push_back(one.stretch);
   }
