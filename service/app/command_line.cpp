@@ -9,6 +9,7 @@
 #include "app/version.hpp"
 #include "bus/bus_error.hpp"
 #include "files/file_error.hpp"
+#include "settings/json_fields.hpp"
 #include "settings/load.hpp"
 
 namespace gyrod::app {
@@ -22,7 +23,8 @@ int complain(const std::exception& error, ExitCode code) noexcept {
 int parse_and_act(int argc, const char* const* argv) {
   CLI::App parser(
       "gyrod denoises MEMS gyroscopes: live on Cyclone DDS topics (run), or a recording (denoise).\n"
-      "Windowed improved EMD with AR-Kalman filtering; method and sources: docs/method.md.");
+      "By the two-speed estimator (method joint) or improved EMD with AR-Kalman filtering (method paper);\n"
+      "methods and sources: docs/method.md.");
   parser.name("gyrod");
   parser.set_version_flag("--version", version_text(), "Print the version and what it is built on");
   parser.require_subcommand(1);
@@ -50,6 +52,8 @@ int run_command_line(int argc, const char* const* argv) noexcept {
   } catch (const settings::SettingsError& error) {
     return complain(error, kWrongSettings);
   } catch (const files::FileError& error) {
+    return complain(error, kFileTrouble);
+  } catch (const settings::NoiseFileError& error) {
     return complain(error, kFileTrouble);
   } catch (const bus::BusError& error) {
     return complain(error, kUnavailable);

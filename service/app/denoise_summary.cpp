@@ -8,6 +8,23 @@
 #include "app/version.hpp"
 
 namespace gyrod::app {
+namespace {
+
+const char* words_for(stream::NoiseSource source) {
+  switch (source) {
+    case stream::NoiseSource::kImf1:
+      return "imf1";
+    case stream::NoiseSource::kStandstill:
+      return "standstill";
+    case stream::NoiseSource::kCalibrated:
+      return "calibrated";
+    case stream::NoiseSource::kNone:
+      break;
+  }
+  return "none";
+}
+
+}  // namespace
 
 void RunningMoments::add(double value) noexcept {
   ++count_;
@@ -30,6 +47,9 @@ void DenoiseSummary::add(const std::array<double, stream::kAxes>& measured_radps
 
 void DenoiseSummary::add(const stream::NoiseReport& report) {
   sample_rate_hz_ = report.sample_rate_hz;
+  if (report.noise_source != noise_source_) noise_source_since_ = report.last_sequence;
+  noise_source_ = report.noise_source;
+  windows_at_rest_ += report.at_rest.value_or(false) ? 1U : 0U;
   if (report.axis[0].window_samples > longest_[0].window_samples) longest_ = report.axis;
   for (std::size_t i = 0; i < stream::kAxes; ++i) {
     const core::WindowReport& window = report.axis[i];
@@ -39,6 +59,12 @@ void DenoiseSummary::add(const stream::NoiseReport& report) {
     axes_[i].j.add(static_cast<double>(window.j));
     axes_[i].k.add(static_cast<double>(window.k));
   }
+}
+
+std::string DenoiseSummary::noise_words() const {
+  if (noise_source_ == stream::NoiseSource::kNone) return "noise by the record itself";
+  return "noise source " + std::string(words_for(noise_source_)) + " from sample " +
+         std::to_string(noise_source_since_) + " on";
 }
 
 std::string DenoiseSummary::json(const Source& source, const stream::Counts& counts) const {
@@ -63,15 +89,18 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
     axes[kNames[i]]["direct_model"] = model_json(longest_[i].direct_model);
     axes[kNames[i]]["imfs"] = imfs_json(longest_[i]);
   }
+  const auto of_paper = [&source](const std::string& text) {
+    return source.method == "paper" ? nlohmann::ordered_json(text) : nlohmann::ordered_json();
+  };
   const nlohmann::ordered_json summary = {{"gyrod_version", version()},
                                           {"input", source.input},
                                           {"output", source.output},
                                           {"method", source.method},
                                           {"estimate", source.estimate},
-                                          {"scheme", source.scheme},
+                                          {"scheme", of_paper(source.scheme)},
                                           {"mode", source.whole_record ? "batch" : "windowed"},
-                                          {"screening", source.screening},
-                                          {"models", source.models},
+                                          {"screening", of_paper(source.screening)},
+                                          {"models", of_paper(source.models)},
                                           {"sample_rate_hz", sample_rate_hz_},
                                           {"samples",
                                            {{"received", counts.received},
@@ -87,6 +116,10 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                                           {"restarts", counts.restarts},
                                           {"windows", counts.windows},
                                           {"model_misfits", counts.misfits},
+                                          {"noise",
+                                           {{"source", words_for(noise_source_)},
+                                            {"since_sample", noise_source_since_},
+                                            {"windows_at_rest", windows_at_rest_}}},
                                           {"axes", axes}};
   return summary.dump(2) + "\n";
 }

@@ -43,6 +43,9 @@ class DenoiseSummary {
     std::uint64_t broken_rows = 0;
   };
 
+  /// Where the noise of the last window comes from, and since when, in words.
+  [[nodiscard]] std::string noise_words() const;
+
   /// JSON, with the unit in every key that has one. Of a whole record it holds each axis's IMFs and models (of the longest stretch).
   [[nodiscard]] std::string json(const Source& source, const stream::Counts& counts) const;
 
@@ -60,6 +63,9 @@ class DenoiseSummary {
   std::array<Axis, stream::kAxes> axes_;
   std::array<core::WindowReport, stream::kAxes> longest_;  ///< reports of the first of the longest windows
   double sample_rate_hz_ = 0.0;
+  stream::NoiseSource noise_source_ = stream::NoiseSource::kNone;  ///< of the last window
+  std::uint64_t noise_source_since_ = 0;  ///< newest sample of the first window in a row that has it
+  std::uint64_t windows_at_rest_ = 0;
 };
 
 }  // namespace gyrod::app

@@ -66,6 +66,7 @@ core::Method evaluated_method(const std::string& name, const MethodContext& cont
   if (name == kJoint || name == kRealtime) return two_speed_method(name, context);
   settings::Settings settings = context.settings;
   settings.engine.lag_samples = context.lag_samples;
+  settings.noise.source = settings::NoiseSource::kImf1;  // the paper's schemes know no other
   const auto run = [name, settings, rate_hz = context.rate_hz](std::span<const double> noisy_dps) {
     core::Contender contender;
     contender.name = name;

@@ -8,7 +8,8 @@ enum ExitCode : int {
   kFailed = 1,         ///< something that no other code names, a defect of gyrod among them
   kWrongUsage = 2,     ///< the command line is wrong
   kWrongSettings = 3,  ///< the configuration file cannot be read or has errors
-  kFileTrouble = 4,    ///< a recording cannot be read or understood, or an output cannot be written
+  kFileTrouble =
+      4,  ///< a recording or calibration cannot be read or understood, or an output cannot be written
   kUnavailable = 5,    ///< DDS or the HTTP port refuses
   kIncomplete = 6,     ///< done, but data are missing: a gap, nobody there, a stop that had to hurry
   kInterrupted = 130,  ///< Ctrl-C or SIGTERM ended it before it was done (128 + SIGINT, as shells count)

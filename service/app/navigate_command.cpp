@@ -10,9 +10,9 @@
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
 #include "app/navigation_comparison.hpp"
+#include "app/navigation_rates.hpp"
 #include "app/navigation_report.hpp"
 #include "app/progress_bar.hpp"
-#include "app/record_denoiser.hpp"
 #include "files/column_names.hpp"
 #include "files/file_error.hpp"
 #include "files/output_file.hpp"
@@ -39,8 +39,6 @@ struct NavigateFlags {
   bool skip_broken_rows = false;
   NavigationOptions options;
 };
-
-using Rates = std::array<std::vector<double>, stream::kAxes>;
 
 files::Record load(const NavigateFlags& flags, Interrupt& interrupt) {
   ProgressBar progress("reading");
@@ -81,13 +79,14 @@ std::optional<files::NavigationTruth> truth_of(const NavigateFlags& flags, const
 }
 
 /// Every scheme at its own stamps; the denoised ones again as they come, late by the lag.
-std::vector<NavigationRun> runs_of(const std::vector<std::string>& schemes, const std::vector<Rates>& rates,
-                                   std::size_t delay_samples) {
+std::vector<NavigationRun> runs_of(const std::vector<std::string>& schemes,
+                                   const std::vector<NavigatedRates>& rates, std::size_t delay_samples) {
   std::vector<NavigationRun> runs;
   for (std::size_t k = 0; k < schemes.size(); ++k) {
     NavigationRun run{schemes[k], {rates[k][0], rates[k][1], rates[k][2]}, 0};
     runs.push_back(run);
-    if (schemes[k] == core::name_of(core::Scheme::kRaw) || delay_samples == 0) continue;
+    const bool at_once = comes_at_once(schemes[k]);
+    if (at_once || delay_samples == 0) continue;
     run.delay_samples = delay_samples;
     runs.push_back(run);
   }
@@ -105,6 +104,7 @@ int navigate(NavigateFlags flags, Interrupt& interrupt) {
   if (flags.input == "-") interrupt.let_through();
   check_outputs(flags);
   const settings::Settings settings = load_or_default(flags.config);
+  check_navigated(flags.schemes, settings, flags.whole_record);
   std::optional<files::OutputFile> json_file;
   std::optional<files::OutputFile> csv_file;
   if (!flags.json.empty()) json_file.emplace(flags.json);
@@ -115,10 +115,10 @@ int navigate(NavigateFlags flags, Interrupt& interrupt) {
   const auto truth = truth_of(flags, record);
   flags.options.reference = reference_of(flags);
   flags.options.keep_series = csv_file.has_value();
-  std::vector<Rates> rates;
+  std::vector<NavigatedRates> rates;
   for (const std::string& scheme : flags.schemes) {
     if (interrupt.requested()) throw files::Stopped{};
-    rates.push_back(denoise_record(record, settings, *core::scheme_of(scheme), flags.whole_record));
+    rates.push_back(navigated_rates(scheme, record, settings, flags.whole_record));
   }
   const std::size_t delay = flags.delay_samples.value_or(settings.engine.lag_samples);
   const NavigationResult result =
@@ -152,17 +152,19 @@ void add_input(CLI::App& command, NavigateFlags& flags) {
   command.add_option("--rate", flags.rate_hz, "Sample rate in Hz; needed where the file has no time column")
       ->type_name("HZ")
       ->check(in_range(1e-3, 1e6));
-  command.add_option("--config", flags.config, "Configuration file: its groups denoise and limits")
+  command.add_option("--config", flags.config, "Configuration file: its groups denoise, noise and limits")
       ->type_name("FILE");
   command.add_flag("--skip-broken-rows", flags.skip_broken_rows,
                    "Leave out and count rows that cannot be read, instead of ending with an error");
   command
-      .add_option("--schemes", flags.schemes,
-                  "raw, direct, emd, acf-emd, improved, separated by commas [raw,acf-emd,improved]")
+      .add_option(
+          "--schemes", flags.schemes,
+          "raw, direct, emd, acf-emd, improved (method paper), joint, realtime (method joint with and "
+          "without look-ahead), separated by commas [raw,acf-emd,improved]")
       ->type_name("LIST")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(one_of({"raw", "direct", "emd", "acf-emd", "improved"}));
+      ->check(one_of(navigated_names()));
   command.add_flag("--whole-record", flags.whole_record,
                    "Denoise the record in one piece, as the paper does, not by windows");
   command

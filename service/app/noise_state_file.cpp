@@ -13,9 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A sensor has about 1 KiB.
-constexpr std::size_t kMostMebibytes = 128;
-
 }  // namespace
 
 NoiseStateFile::NoiseStateFile(std::string path, Warn warn)

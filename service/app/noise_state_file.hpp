@@ -1,6 +1,7 @@
 /// The file that keeps what was learned of the sensors' noise across restarts.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -13,6 +14,9 @@ class NoiseStateFile {
  public:
   /// Takes one line for the log.
   using Warn = std::function<void(const std::string&)>;
+
+  /// A larger file is not read: a sensor has about 1 KiB.
+  static constexpr std::size_t kMostMebibytes = 128;
 
   /// @param path empty: nothing is read or written
   NoiseStateFile(std::string path, Warn warn);

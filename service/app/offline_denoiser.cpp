@@ -8,28 +8,27 @@
 namespace gyrod::app {
 namespace {
 
-constexpr std::string_view kSensor = "recording";
-
 double clock_that_stands_still() { return 0.0; }
 
 }  // namespace
 
 OfflineDenoiser::OfflineDenoiser(const settings::Settings& settings, RowHandler& handler,
-                                 DenoiseSummary& summary, EstimateKind estimate)
+                                 DenoiseSummary& summary, const OfflineChoice& choice)
     : handler_(handler),
       summary_(summary),
-      estimate_(estimate),
-      engine_(offline_engine_options(settings), method(settings), *this, clock_that_stands_still) {}
+      choice_(choice),
+      noise_(settings.noise, remembered_noise(settings.noise)),
+      engine_(offline_engine_options(settings, noise_), method(settings), *this, clock_that_stands_still) {}
 
 void OfflineDenoiser::push(files::RecordingRow& row) {
   waiting_.push_back({std::move(row.text), row.sample.rate_radps, true});
   // A refused sample releases nothing, so the row's fate is known before anyone asks for it.
-  waiting_.back().accepted = engine_.push(kSensor, {&row.sample, 1}) == 1;
+  waiting_.back().accepted = engine_.push(choice_.sensor, {&row.sample, 1}) == 1;
   hand_on();
 }
 
 void OfflineDenoiser::finish() {
-  engine_.end_of_stream(kSensor);
+  engine_.end_of_stream(choice_.sensor);
   hand_on();
   hand_on_refused();
   assert(waiting_.empty());
@@ -55,12 +54,14 @@ void OfflineDenoiser::hand_on_refused() {
 }
 
 void OfflineDenoiser::on_samples(std::string_view, std::span<const stream::DenoisedSample> samples) noexcept {
-  if (estimate_ == EstimateKind::kDenoised) released_.insert(released_.end(), samples.begin(), samples.end());
+  if (choice_.estimate == EstimateKind::kDenoised)
+    released_.insert(released_.end(), samples.begin(), samples.end());
 }
 
 void OfflineDenoiser::on_realtime(std::string_view,
                                   std::span<const stream::DenoisedSample> samples) noexcept {
-  if (estimate_ == EstimateKind::kRealtime) released_.insert(released_.end(), samples.begin(), samples.end());
+  if (choice_.estimate == EstimateKind::kRealtime)
+    released_.insert(released_.end(), samples.begin(), samples.end());
 }
 
 void OfflineDenoiser::on_report(std::string_view, const stream::NoiseReport& report) noexcept {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/denoise_summary.hpp"
+#include "app/noise_sources.hpp"
 #include "app/row_handler.hpp"
 #include "files/recording_reader.hpp"
 #include "settings/settings.hpp"
@@ -24,6 +25,12 @@ enum class EstimateKind : std::uint8_t {
   kRealtime,  ///< from this sample and those before it; model methods only
 };
 
+struct OfflineChoice {
+  EstimateKind estimate = EstimateKind::kDenoised;
+  /// Id of the sensor that it is a recording of: finds its calibration and what was learned of it.
+  std::string sensor = "recording";
+};
+
 /// Runs the rows of one sensor through an engine without workers. Its clock stands still, so that overload
 /// does not exist here and the result depends on the rows alone: it is what the daemon publishes for them,
 /// bit for bit. Memory: the rows between the newest and the oldest one not released (lag + hop, and refused
@@ -32,8 +39,9 @@ class OfflineDenoiser final : private stream::Sink {
  public:
   /// @param handler, summary have to outlive the denoiser
   /// @pre the settings' method makes the estimate
+  /// @throws settings::NoiseFileError for a calibration, files::FileError for a noise state file that cannot be used
   OfflineDenoiser(const settings::Settings& settings, RowHandler& handler, DenoiseSummary& summary,
-                  EstimateKind estimate = EstimateKind::kDenoised);
+                  const OfflineChoice& choice = {});
 
   /// Takes the next row; its text is moved out. Hands on the rows that this makes ready; what the handler
   /// throws leaves here.
@@ -60,9 +68,10 @@ class OfflineDenoiser final : private stream::Sink {
 
   RowHandler& handler_;
   DenoiseSummary& summary_;
-  EstimateKind estimate_;
+  OfflineChoice choice_;
   std::deque<WaitingRow> waiting_;
   std::vector<stream::DenoisedSample> released_;  ///< by the engine, not handed on yet
+  NoiseSources noise_;
   stream::Engine engine_;
 };
 

@@ -58,17 +58,19 @@ bus::BusOptions live_bus_options(const settings::Settings& settings) {
   return options;
 }
 
-stream::EngineOptions live_engine_options(const settings::Settings& settings) {
+stream::EngineOptions live_engine_options(const settings::Settings& settings, NoiseSources& noise) {
   stream::EngineOptions options = settings.engine;
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   options.workers = settings.workers > 0 ? settings.workers : cores;
+  noise.attach_to(options);
   return options;
 }
 
-stream::EngineOptions offline_engine_options(const settings::Settings& settings) {
+stream::EngineOptions offline_engine_options(const settings::Settings& settings, NoiseSources& noise) {
   stream::EngineOptions options = settings.engine;
   options.workers = 0;
   options.max_channels = 1;
+  noise.attach_to(options);
   return options;
 }
 

@@ -1,6 +1,7 @@
 /// From the configuration's words to the options of the rooms.
 #pragma once
 
+#include "app/noise_sources.hpp"
 #include "bus/bus_options.hpp"
 #include "core/denoise/denoiser.hpp"
 #include "core/joint/joint_options.hpp"
@@ -16,10 +17,14 @@ namespace gyrod::app {
 [[nodiscard]] bus::BusOptions live_bus_options(const settings::Settings& settings);
 
 /// For the daemon: as many workers as the settings say, or as there are processor cores.
-[[nodiscard]] stream::EngineOptions live_engine_options(const settings::Settings& settings);
+/// @param noise has to outlive the engine
+[[nodiscard]] stream::EngineOptions live_engine_options(const settings::Settings& settings,
+                                                        NoiseSources& noise);
 
 /// For one recording: the same windows and limits, computed in the calling thread.
-[[nodiscard]] stream::EngineOptions offline_engine_options(const settings::Settings& settings);
+/// @param noise has to outlive the engine
+[[nodiscard]] stream::EngineOptions offline_engine_options(const settings::Settings& settings,
+                                                           NoiseSources& noise);
 
 [[nodiscard]] core::DenoiserOptions denoiser_options(const settings::DenoiseSettings& settings);
 [[nodiscard]] core::JointOptions joint_options(const settings::Settings& settings);

@@ -8,10 +8,12 @@
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
+#include "app/options.hpp"
 #include "app/service.hpp"
 #include "app/status_log.hpp"
 #include "app/version.hpp"
 #include "bus/log.hpp"
+#include "settings/enum_names.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -63,18 +65,27 @@ void announce(const settings::Settings& settings, const Service& service) {
   const auto& topics = settings.bus.topics;
   spdlog::info("gyrod {}: domain {}, network {}, {} workers", version(), settings.bus.domain,
                settings.bus.network, service.workers());
-  spdlog::info("reads {} and {}, writes {}, {} and {}", topics.raw, topics.raw_batch, topics.denoised,
-               topics.denoised_batch, topics.noise);
+  const bool realtime = is_model_method(settings.denoise);
+  spdlog::info("reads {} and {}, writes {}, {}{} and {}", topics.raw, topics.raw_batch, topics.denoised,
+               topics.denoised_batch,
+               realtime ? ", " + topics.realtime + ", " + topics.realtime_batch : std::string{},
+               topics.noise);
+  spdlog::info("method {}; noise: {}, {} calibrations, {} sensors remembered",
+               settings::name_of(settings.denoise.method), settings::name_of(settings.noise.source),
+               service.noise().calibrations(), service.noise().remembered());
   if (service.monitor_port() == 0) return;
   spdlog::info("metrics at http://{}:{}/metrics", settings.monitor.address, service.monitor_port());
 }
 
-void serve(const Service& service, Interrupt& interrupt) {
+void serve(Service& service, Interrupt& interrupt) {
   constexpr std::chrono::seconds kTick{1};  // far below any sensible WatchdogSec
+  constexpr unsigned kTicksPerSave = 60;
   StatusLog status;
+  unsigned ticks = 0;
   while (!interrupt.wait_for(kTick)) {
     (void)sd_notify(0, "WATCHDOG=1");
     status.tick(service.snapshot(), service.matched_writers());
+    if (++ticks % kTicksPerSave == 0) service.keep_noise();
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <spdlog/spdlog.h>
+
 #include "app/errors.hpp"
 #include "app/options.hpp"
 
@@ -62,10 +64,12 @@ void FeedEngine::on_end(std::string_view sensor) noexcept { engine_.end_of_strea
 
 Service::Service(const settings::Settings& settings)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
+      noise_file_(settings.noise.state_file, [](const std::string& line) { spdlog::warn(line); }),
+      noise_(settings.noise, noise_file_.load()),
       domain_(settings.bus.domain, settings.bus.network),
       publisher_(domain_, live_bus_options(settings)),
       release_(publisher_, settings.bus.output.history_depth),
-      engine_(live_engine_options(settings), method(settings), release_),
+      engine_(live_engine_options(settings, noise_), method(settings), release_),
       feed_(engine_),
       subscriber_(domain_, bus_options(settings.bus), feed_) {
   if (!settings.monitor.enabled) return;
@@ -88,9 +92,16 @@ bool Service::stop() {
   engine_.hurry_after(stop_deadline_);  // holds for what the subscriber still hands over, too
   subscriber_.stop();
   const bool denoised = engine_.stop(stop_deadline_);
+  keep_noise();
   publisher_.wait_for_acknowledgements(kLastWord);
   if (monitor_) monitor_->stop();
   return denoised;
+}
+
+void Service::keep_noise() {
+  const std::uint64_t revision = noise_.revision();
+  if (revision == noise_kept_) return;
+  if (noise_file_.save(noise_.learned())) noise_kept_ = revision;
 }
 
 monitor::View Service::view() {

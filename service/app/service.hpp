@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "app/noise_sources.hpp"
+#include "app/noise_state_file.hpp"
 #include "bus/domain.hpp"
 #include "bus/publisher.hpp"
 #include "bus/subscriber.hpp"
@@ -60,17 +62,20 @@ class FeedEngine final : public bus::SampleHandler {
 class Service {
  public:
   /// Joins the domain and takes the HTTP port; nothing flows yet.
-  /// @throws bus::BusError, Unavailable
+  /// @throws bus::BusError, Unavailable, settings::NoiseFileError for a calibration
   explicit Service(const settings::Settings& settings);
 
   void start();
 
-  /// Source first, then what is in flight, then the publisher, then the monitor.
+  /// Source first, then what is in flight, then the publisher, then the monitor. Keeps what was learned of the noise.
   /// @return false if what was in flight had to pass through undenoised, because the deadline passed
   bool stop();
 
   [[nodiscard]] stream::EngineSnapshot snapshot() const { return engine_.snapshot(); }
   [[nodiscard]] std::size_t matched_writers() const noexcept { return subscriber_.matched_writers(); }
+  /// Writes the noise state file if anything has been learned since the last time.
+  void keep_noise();
+  [[nodiscard]] const NoiseSources& noise() const noexcept { return noise_; }
   [[nodiscard]] std::size_t workers() const noexcept { return engine_.options().workers; }
   /// The HTTP port; 0 without a monitor.
   [[nodiscard]] std::uint16_t monitor_port() const noexcept {
@@ -83,6 +88,9 @@ class Service {
 
   std::chrono::milliseconds stop_deadline_;
   std::atomic<bool> ready_{false};
+  NoiseStateFile noise_file_;
+  NoiseSources noise_;
+  std::uint64_t noise_kept_ = 0;  ///< revision of noise_ that the file holds
   bus::Domain domain_;
   bus::Publisher publisher_;
   ReleaseToBus release_;

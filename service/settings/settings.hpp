@@ -61,7 +61,7 @@ struct BusSettings {
 /// What the algorithm is told; window, hop, lag and sample rate of the group `denoise` are in
 /// `Settings::engine`.
 struct DenoiseSettings {
-  Method method = Method::kPaper;
+  Method method = Method::kJoint;
   core::Scheme scheme = core::Scheme::kImproved;
   Screening screening = Screening::kWindowed;
   int sifts = 10;

@@ -21,13 +21,13 @@ struct CalibratedNoise {
 struct StandstillOptions {
   double sample_rate_hz = 0.0;  ///< configured; 0: found from the stamps
   /// In use instead of anything learned.
-  std::optional<CalibratedNoise> calibrated;
+  std::optional<CalibratedNoise> calibrated = {};
   /// Whether what is learned is in use where nothing is calibrated. It is learned in any case.
   bool use_learned = true;
   /// Of an earlier run.
-  std::optional<core::StandstillState> remembered;
+  std::optional<core::StandstillState> remembered = {};
   /// Told of every change of the learned models, from the thread that pushes. Must not throw; may be empty.
-  std::function<void(const core::StandstillState&)> on_learned;
+  std::function<void(const core::StandstillState&)> on_learned = {};
 };
 
 /// The models as a channel uses them: core::kNoiseMargin as strong. An axis whose model is not usable, one that the calibrated recording

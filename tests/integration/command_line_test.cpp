@@ -46,8 +46,10 @@ TEST_F(CommandLine, WrongUsageIsExitCode2) {
   EXPECT_EQ(run({}).exit_code, ExitCode::kWrongUsage);
   EXPECT_EQ(run({"denoice"}).exit_code, ExitCode::kWrongUsage);
   EXPECT_EQ(run({"denoise"}).exit_code, ExitCode::kWrongUsage);
-  EXPECT_EQ(run({"denoise", path("in.csv"), "-o", path("out.csv"), "--estimate", "realtime"}).exit_code,
-            ExitCode::kWrongUsage)
+  EXPECT_EQ(
+      run({"denoise", path("in.csv"), "-o", path("out.csv"), "--method", "paper", "--estimate", "realtime"})
+          .exit_code,
+      ExitCode::kWrongUsage)
       << "the paper's method has no estimate without look-ahead";
   EXPECT_EQ(run({"replay", "x.csv", "--sensor", "imu", "--speed", "fast"}).exit_code, ExitCode::kWrongUsage);
   EXPECT_EQ(run({"replay", "x.csv", "--sensor", "imu", "--batch", "0"}).exit_code, ExitCode::kWrongUsage);

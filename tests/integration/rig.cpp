@@ -68,7 +68,9 @@ std::unique_ptr<Process> Rig::start_daemon(const DaemonOptions& options) {
   std::ostringstream text;
   text << R"({"bus": {"domain": )" << domain_ << R"(, "input": {"max_messages": )" << options.max_messages
        << "}},"
-       << R"("denoise": {"window_samples": )" << options.window_samples << "},"
+       << R"("denoise": {"method": ")" << options.method << R"(", "window_samples": )"
+       << options.window_samples << "},"
+       << R"("noise": {"state_file": ")" << options.state_file << R"("},)"
        << R"("limits": {"max_delay_s": 3600, "max_channels": )" << options.max_channels << "},"
        << R"("workers": )" << options.workers << R"(, "monitor": {"port": 0},)"
        << R"("stop": {"deadline_s": )" << options.stop_deadline_s << "}}";
@@ -80,8 +82,9 @@ std::unique_ptr<Process> Rig::start_daemon(const DaemonOptions& options) {
 }
 
 std::unique_ptr<Process> Rig::start_recorder(const std::string& out,
-                                             const std::vector<std::string>& arguments) {
-  std::vector<std::string> all = {"record", "--topic", "gyro/denoised", "-o", path(out)};
+                                             const std::vector<std::string>& arguments,
+                                             const std::string& topic) {
+  std::vector<std::string> all = {"record", "--topic", topic, "-o", path(out)};
   all.insert(all.end(), arguments.begin(), arguments.end());
   auto recorder = start_on_bus(all);
   if (!recorder->wait_for_err("listening"))

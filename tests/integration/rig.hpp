@@ -44,13 +44,16 @@ class Rig : public ::testing::Test {
     std::size_t max_channels = 64;
     std::size_t window_samples = 1024;
     std::size_t max_messages = 4096;  ///< that DDS holds for the daemon
+    std::string method = "joint";
+    std::string state_file = {};  ///< of noise; empty: none
   };
   /// Writes the configuration and starts the daemon; waits until it serves. Overload is out of reach, so that
   /// results do not depend on the machine.
   std::unique_ptr<Process> start_daemon(const DaemonOptions& options);
   std::unique_ptr<Process> start_daemon() { return start_daemon(DaemonOptions{}); }
-  /// Starts `gyrod record` of the denoised samples and waits until it listens to the daemon.
-  std::unique_ptr<Process> start_recorder(const std::string& out, const std::vector<std::string>& arguments);
+  /// Starts `gyrod record` of a topic and waits until it listens to the daemon.
+  std::unique_ptr<Process> start_recorder(const std::string& out, const std::vector<std::string>& arguments,
+                                          const std::string& topic = "gyro/denoised");
   /// SIGTERM, and the exit code.
   int stop_daemon(Process& daemon);
 

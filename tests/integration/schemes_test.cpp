@@ -40,7 +40,7 @@ class Schemes : public Rig {
   }
 };
 
-TEST_F(Schemes, RawGivesTheInputAndImprovedIsTheDefault) {
+TEST_F(Schemes, RawGivesTheInputAndImprovedIsThePapersDefault) {
   for (const std::vector<std::string>& mode : {std::vector<std::string>{}, {"--batch"}}) {
     std::vector<std::string> raw = mode;
     raw.insert(raw.end(), {"--scheme", "raw"});
@@ -48,7 +48,9 @@ TEST_F(Schemes, RawGivesTheInputAndImprovedIsTheDefault) {
     EXPECT_TRUE(is_the_input()) << "the text may be another, the numbers are not";
     std::vector<std::string> improved = mode;
     improved.insert(improved.end(), {"--scheme", "improved"});
-    EXPECT_TRUE(denoised(improved) == denoised(mode));
+    std::vector<std::string> paper = mode;
+    paper.insert(paper.end(), {"--method", "paper"});
+    EXPECT_TRUE(denoised(improved) == denoised(paper)) << "a scheme implies method paper";
   }
 }
 
@@ -65,7 +67,7 @@ TEST_F(Schemes, EachIsAnotherAndBatchIsAnotherThanWindowed) {
 }
 
 TEST_F(Schemes, TheConfigurationNamesOneAndTheFlagWins) {
-  write_file("direct.json", R"({"denoise": {"scheme": "direct"}})");
+  write_file("direct.json", R"({"denoise": {"method": "paper", "scheme": "direct"}})");
   const std::string direct = denoised({"--scheme", "direct"});
   EXPECT_TRUE(denoised({"--config", path("direct.json")}) == direct);
   denoised({"--config", path("direct.json"), "--scheme", "raw"});
@@ -87,12 +89,22 @@ TEST_F(Schemes, ABatchSummaryTellsSchemeModelsAndImfs) {
   EXPECT_THAT(read_file("s.json"), HasSubstr("\"mode\": \"windowed\""));
 }
 
+TEST_F(Schemes, ASummaryOfMethodJointNamesNone) {
+  denoised({"--summary", path("s.json")});
+  for (const char* text : {"\"method\": \"joint\"", "\"scheme\": null", "\"screening\": null"})
+    EXPECT_THAT(read_file("s.json"), HasSubstr(text));
+}
+
 TEST_F(Schemes, WrongNamesAreWrongUsage) {
   const std::vector<std::string> start = {"denoise", path("in.csv"), "-o", path("out.csv")};
   for (const std::vector<std::string>& more : {std::vector<std::string>{"--scheme", "best"},
                                                {"--screening", "none"},
                                                {"--models", "ar"},
-                                               {"--batch", "--models", "ma"}}) {
+                                               {"--batch", "--models", "ma"},
+                                               {"--method", "joint", "--scheme", "emd"},
+                                               {"--method", "joint", "--batch"},
+                                               {"--method", "kalman"},
+                                               {"--estimate", "realtime", "--method", "paper"}}) {
     std::vector<std::string> arguments = start;
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(run(arguments).exit_code, ExitCode::kWrongUsage) << more.back();

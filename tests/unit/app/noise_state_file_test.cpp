@@ -30,8 +30,8 @@ settings::NoiseStates states(double rest_seconds) {
 
 class NoiseStateFileTest : public ::testing::Test {
  protected:
-  NoiseStateFile file(const std::string& path) {
-    return {path, [this](const std::string& line) { warnings.push_back(line); }};
+  NoiseStateFile file(const std::string& name) {
+    return {name, [this](const std::string& line) { warnings.push_back(line); }};
   }
   testing::ScratchFolder folder;
   std::string path = folder.path("noise.json");

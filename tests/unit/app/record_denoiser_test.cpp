@@ -65,12 +65,24 @@ TEST(DenoiseRecord, WindowedIsWhatTheOfflineDenoiserGives) {
   const files::Record record = record_of(3000);
   for (const Scheme scheme : core::kAllSchemes) {
     settings::Settings settings;
+    settings.denoise.method = settings::Method::kPaper;
     settings.denoise.scheme = scheme;
     Rows rows;
     app::DenoiseSummary summary;
     app::OfflineDenoiser denoiser(settings, rows, summary);
     push_all(denoiser, record);
     EXPECT_EQ(app::denoise_record(record, {}, scheme, false)[0], rows.x) << core::name_of(scheme);
+  }
+}
+
+TEST(DenoiseRecord, EstimatesAreWhatTheOfflineDenoiserGives) {
+  const files::Record record = record_of(3000);
+  for (const auto kind : {app::EstimateKind::kDenoised, app::EstimateKind::kRealtime}) {
+    Rows rows;
+    app::DenoiseSummary summary;
+    app::OfflineDenoiser denoiser({}, rows, summary, {.estimate = kind});
+    push_all(denoiser, record);
+    EXPECT_EQ(app::estimate_record(record, {}, kind)[0], rows.x);
   }
 }
 

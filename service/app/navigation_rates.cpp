@@ -1,0 +1,50 @@
+#include "app/navigation_rates.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "app/record_denoiser.hpp"
+#include "core/denoise/scheme.hpp"
+#include "stream/method.hpp"
+
+namespace gyrod::app {
+namespace {
+
+constexpr std::string_view kJoint = "joint";
+constexpr std::string_view kRealtime = "realtime";
+
+}  // namespace
+
+std::vector<std::string> navigated_names() {
+  std::vector<std::string> names(core::kSchemeNames.begin(), core::kSchemeNames.end());
+  names.emplace_back(kJoint);
+  names.emplace_back(kRealtime);
+  return names;
+}
+
+bool comes_at_once(std::string_view name) noexcept {
+  return name == core::name_of(core::Scheme::kRaw) || name == kRealtime;
+}
+
+void check_navigated(const std::vector<std::string>& names, const settings::Settings& settings,
+                     bool whole_record) {
+  for (const std::string& name : names) {
+    if (name != kJoint && name != kRealtime) continue;
+    if (whole_record)
+      throw CLI::ValidationError("--schemes", name + " and --whole-record exclude one another");
+    if (settings.engine.lag_samples <= stream::kMaxModelLagSamples) continue;
+    throw CLI::ValidationError("--schemes", name + " looks ahead by " +
+                                                std::to_string(stream::kMaxModelLagSamples) +
+                                                " samples at most; denoise.lag_samples is " +
+                                                std::to_string(settings.engine.lag_samples));
+  }
+}
+
+NavigatedRates navigated_rates(const std::string& name, const files::Record& record,
+                               const settings::Settings& settings, bool whole_record) {
+  if (const auto scheme = core::scheme_of(name))
+    return denoise_record(record, settings, *scheme, whole_record);
+  return estimate_record(record, settings,
+                         name == kRealtime ? EstimateKind::kRealtime : EstimateKind::kDenoised);
+}
+
+}  // namespace gyrod::app

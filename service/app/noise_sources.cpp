@@ -1,0 +1,78 @@
+#include "app/noise_sources.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "app/noise_state_file.hpp"
+#include "files/file_error.hpp"
+#include "settings/text_file.hpp"
+
+namespace gyrod::app {
+namespace {
+
+std::vector<settings::NoiseCalibration> calibrations_of(const settings::NoiseSettings& settings) {
+  const bool wanted = settings.source == settings::NoiseSource::kAuto ||
+                      settings.source == settings::NoiseSource::kCalibrated;
+  if (!wanted || settings.calibrations.empty()) return {};
+  return settings::load_calibrations(settings.calibrations);
+}
+
+}  // namespace
+
+NoiseSources::NoiseSources(const settings::NoiseSettings& settings, settings::NoiseStates remembered)
+    : source_(settings.source),
+      calibrations_(calibrations_of(settings)),
+      remembered_(std::move(remembered)),
+      learned_(remembered_) {}
+
+void NoiseSources::attach_to(stream::EngineOptions& options) {
+  if (source_ == settings::NoiseSource::kImf1) return;
+  const double rate_hz = options.sample_rate_hz;
+  options.noise = [this, rate_hz](std::string_view sensor) {
+    return stream::noise_beforehand(options_of(sensor, rate_hz));
+  };
+  options.learner = [this, rate_hz](std::string_view sensor) { return learner_of(sensor, rate_hz); };
+}
+
+stream::StandstillOptions NoiseSources::options_of(std::string_view sensor, double sample_rate_hz) const {
+  stream::StandstillOptions options;
+  options.sample_rate_hz = sample_rate_hz;
+  options.use_learned = source_ != settings::NoiseSource::kCalibrated;
+  if (const auto* calibration = settings::calibration_for(calibrations_, sensor))
+    options.calibrated = stream::CalibratedNoise{calibration->sample_rate_hz, calibration->models};
+  if (const auto found = remembered_.find(sensor); found != remembered_.end())
+    options.remembered = found->second;
+  return options;
+}
+
+std::unique_ptr<stream::NoiseLearner> NoiseSources::learner_of(std::string_view sensor,
+                                                               double sample_rate_hz) {
+  stream::StandstillOptions options = options_of(sensor, sample_rate_hz);
+  core::StandstillState* slot = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    slot = &learned_.try_emplace(std::string(sensor)).first->second;
+  }
+  options.on_learned = [this, slot](const core::StandstillState& state) {
+    const std::lock_guard lock(mutex_);
+    *slot = state;
+    ++revision_;
+  };
+  return std::make_unique<stream::StandstillNoise>(std::move(options));
+}
+
+settings::NoiseStates NoiseSources::learned() const {
+  const std::lock_guard lock(mutex_);
+  return learned_;
+}
+
+settings::NoiseStates remembered_noise(const settings::NoiseSettings& settings) {
+  if (settings.state_file.empty()) return {};
+  const settings::TextFile read =
+      settings::read_text_file(settings.state_file, NoiseStateFile::kMostMebibytes);
+  if (read.missing) return {};
+  if (!read.trouble.empty()) throw files::FileError(settings.state_file + ": " + read.trouble);
+  return settings::parse_noise_state(settings.state_file, read.text);
+}
+
+}  // namespace gyrod::app
