@@ -79,7 +79,7 @@ live_line() {  # one scrape, and the one before in the file `last`
       if (noise_in == 0) { printf "  waiting for the first window ...\n"; exit }
       new = count - was[3]
       latency = new > 0 ? (waited - was[2]) / new * 1000 : 0
-      printf "  noise in %.3f deg/s  out %.3f deg/s (%2.0f %% less) | %3d windows/s | latency %.1f ms + lag + hop\n",
+      printf "  noise in %.3f deg/s  out %.3f deg/s (%2.0f %% less) | %3d windows/s, each done in %.1f ms\n",
         sqrt(noise_in) * deg, sqrt(noise_out) * deg, 100 * (1 - sqrt(noise_out / noise_in)), windows - was[1], latency
     }'
 }
