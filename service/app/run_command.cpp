@@ -106,7 +106,9 @@ int run(const BusFlags& flags, Interrupt& interrupt) {
   spdlog::info("stopped: {} samples received, {} published, {} rejected, {} in flight", totals.received,
                totals.published, totals.rejected_total(), totals.in_flight);
   if (denoised) return kDone;
-  spdlog::warn("the stop's deadline passed: the rest was passed through undenoised");
+  spdlog::warn("the stop's deadline passed: the rest was {}", is_model_method(settings.denoise)
+                                                                  ? "denoised with older models"
+                                                                  : "passed through undenoised");
   return kIncomplete;
 }
 
