@@ -15,7 +15,7 @@ using Rates = std::array<std::vector<double>, stream::kAxes>;
 
 constexpr std::string_view kSensor = "record";
 
-double clock_that_stands_still() { return 0.0; }
+double clock_of_a_record() { return 0.0; }
 
 /// Puts each denoised sample where its number says. What the engine refuses stays as measured.
 class Collector final : public stream::Sink {
@@ -49,7 +49,7 @@ Rates windowed(const files::Record& record, const settings::Settings& settings, 
   Collector collector(rates, estimate);
   NoiseSources noise(settings.noise, remembered_noise(settings.noise));
   stream::Engine engine(offline_engine_options(settings, noise), method(settings), collector,
-                        clock_that_stands_still);
+                        clock_of_a_record);
   const double period_ns = 1e9 / record.sample_rate_hz;
   for (std::size_t n = 0; n < record.size(); ++n) {
     stream::Sample sample;
