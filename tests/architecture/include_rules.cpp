@@ -28,7 +28,7 @@ const std::vector<Room>& rooms() {
       {"core/noise", {"core/signal"}, {"Eigen/"}},
       {"core/joint",
        {"core/signal", "core/emd", "core/denoise", "core/noise"},
-        {"Eigen/", "unsupported/Eigen/", "immintrin.h", "emmintrin.h"}},
+       {"Eigen/", "unsupported/Eigen/", "immintrin.h", "emmintrin.h"}},
       {"core/evaluation", {}, {"Eigen/"}},
       {"stream", {"core/"}, {}},
       {"bus", {"core/", "stream"}, {"dds/", "gyrod.h"}},
