@@ -84,16 +84,21 @@ void resample(test::DriveRow& row, double rate_hz) {
   if (rate_hz == row.rate_hz) return;
   const double step = row.rate_hz / rate_hz;
   const auto count = static_cast<std::size_t>(static_cast<double>(row.truth_dps.size() - 1) / step);
+  std::vector<double> noise;  // without the samples that the reference lost
+  for (std::size_t n = 0; n < row.noisy_dps.size(); ++n) {
+    const double difference = row.noisy_dps[n] - row.truth_dps[n];
+    if (std::isfinite(difference)) noise.push_back(difference);
+  }
+  const std::vector<double> motion = test::bridged(row.truth_dps);
   std::vector<double> truth(count);
   for (std::size_t n = 0; n < count; ++n) {
     const double at = static_cast<double>(n) * step;
     const auto k = static_cast<std::size_t>(at);
-    truth[n] = std::lerp(row.truth_dps[k], row.truth_dps[k + 1], at - static_cast<double>(k));
+    truth[n] = std::lerp(motion[k], motion[k + 1], at - static_cast<double>(k));
   }
   std::vector<double> noisy(count);
   for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t source = n % row.noisy_dps.size();
-    noisy[n] = truth[n] + row.noisy_dps[source] - row.truth_dps[source];
+    noisy[n] = truth[n] + noise[n % noise.size()];
   }
   row.truth_dps = std::move(truth);
   row.noisy_dps = std::move(noisy);
