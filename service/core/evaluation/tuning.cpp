@@ -44,8 +44,7 @@ std::vector<double> whole_lengths(const std::vector<double>& grid) {
     lengths.push_back(std::round(point) + 1.0);
   }
   std::ranges::sort(lengths);
-  const auto repeated = std::ranges::unique(lengths);
-  lengths.erase(repeated.begin(), repeated.end());
+  lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
   return lengths;
 }
 
@@ -133,8 +132,10 @@ class Search {
 
   void every_length(std::size_t i) {
     const auto [low, high] = neighbours(i);
-    for (double length = std::ceil(low); length <= high; length += 1.0)
-      offer({rival(), length, 0.0, 0}, i, i + 1);
+    const auto first = static_cast<std::size_t>(std::ceil(low));
+    const auto last = static_cast<std::size_t>(std::floor(high));
+    for (std::size_t length = first; length <= last; ++length)
+      offer({rival(), static_cast<double>(length), 0.0, 0}, i, i + 1);
   }
 
   void golden_section(std::size_t i) {
