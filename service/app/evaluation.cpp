@@ -199,10 +199,11 @@ class RowJudge {
   /// Bins from -4 to 4 standard deviations of the noise.
   void add_histogram(const std::string& name, const core::Contender& contender) {
     constexpr std::size_t kBins = 81;
+    constexpr double kMiddle = 40.0;  // of them
     const double width = 8.0 * std::max(judged_.noise_std_dps, 1e-9) / static_cast<double>(kBins);
     judged_.bin_centres_dps.resize(kBins);
     for (std::size_t i = 0; i < kBins; ++i) {
-      judged_.bin_centres_dps[i] = width * (static_cast<double>(i) - static_cast<double>(kBins / 2));
+      judged_.bin_centres_dps[i] = width * (static_cast<double>(i) - kMiddle);
     }
     ErrorHistogram histogram{name, std::vector<double>(kBins, 0.0)};
     double count = 0.0;

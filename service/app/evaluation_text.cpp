@@ -17,7 +17,8 @@ constexpr int kAngleWidth = 12;
 std::string padded(const std::string& text, int width) {
   const std::size_t wanted =
       static_cast<std::size_t>(width) - std::min(text.size(), static_cast<std::size_t>(width));
-  return std::string(wanted, ' ');
+  std::string padding(wanted, ' ');
+  return padding;
 }
 /// Never runs into its neighbour.
 std::string left(const std::string& text, int width) { return text + padded(text, width); }

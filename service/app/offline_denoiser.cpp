@@ -13,10 +13,10 @@ double clock_that_stands_still() { return 0.0; }
 }  // namespace
 
 OfflineDenoiser::OfflineDenoiser(const settings::Settings& settings, RowHandler& handler,
-                                 DenoiseSummary& summary, const OfflineChoice& choice)
+                                 DenoiseSummary& summary, OfflineChoice choice)
     : handler_(handler),
       summary_(summary),
-      choice_(choice),
+      choice_(std::move(choice)),
       noise_(settings.noise, remembered_noise(settings.noise)),
       engine_(offline_engine_options(settings, noise_), method(settings), *this, clock_that_stands_still) {}
 

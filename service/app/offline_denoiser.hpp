@@ -41,7 +41,7 @@ class OfflineDenoiser final : private stream::Sink {
   /// @pre the settings' method makes the estimate
   /// @throws settings::NoiseFileError for a calibration, files::FileError for a noise state file that cannot be used
   OfflineDenoiser(const settings::Settings& settings, RowHandler& handler, DenoiseSummary& summary,
-                  const OfflineChoice& choice = {});
+                  OfflineChoice choice = {});
 
   /// Takes the next row; its text is moved out. Hands on the rows that this makes ready; what the handler
   /// throws leaves here.
