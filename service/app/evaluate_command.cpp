@@ -129,8 +129,8 @@ int evaluate_or_stop(const EvaluateFlags& flags, Interrupt& interrupt) {
   options.methods = flags.methods;
   options.lag_samples = flags.lags;
   std::ranges::sort(options.lag_samples);
-  const auto repeated = std::ranges::unique(options.lag_samples);
-  options.lag_samples.erase(repeated.begin(), repeated.end());
+  auto& lags = options.lag_samples;
+  lags.erase(std::unique(lags.begin(), lags.end()), lags.end());
   options.turns = !flags.no_turns;
   options.turn_repeats = flags.turn_repeats;
   check_lags(options);
