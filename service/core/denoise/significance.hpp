@@ -31,7 +31,8 @@ class SignificanceTest {
   /// Excess that white noise has, but for the false-alarm rate. The lower bound is 0 where nu is small.
   [[nodiscard]] NoiseBand band(std::size_t imf, std::size_t samples) const noexcept;
 
-  /// Probability that white noise gives an excess at least as far from its mean as this one. @pre excess >= 0
+  /// Probability that white noise gives an excess at least as far from its mean as this one. 0 where it is not a number: energies of
+  /// values near 1e300 overflow.
   [[nodiscard]] static double p_value(double excess, std::size_t imf, std::size_t samples) noexcept;
 
  private:
