@@ -24,6 +24,22 @@ const char* words_for(stream::NoiseSource source) {
   return "none";
 }
 
+/// What became of the samples.
+nlohmann::ordered_json samples_json(const stream::Counts& counts) {
+  nlohmann::ordered_json rejected = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
+    rejected[std::string(stream::name_of(static_cast<stream::RejectReason>(i)))] = counts.rejected[i];
+  }
+  return {{"received", counts.received},
+          {"denoised", counts.published - counts.passed_through},
+          {"passed_through", counts.passed_through},
+          {"warming_up", counts.warming_up},
+          {"realtime", counts.realtime},
+          {"rejected", rejected},
+          {"missing", counts.missing},
+          {"bridged", counts.bridged}};
+}
+
 }  // namespace
 
 void RunningMoments::add(double value) noexcept {
@@ -67,11 +83,7 @@ std::string DenoiseSummary::noise_words() const {
          std::to_string(noise_source_since_) + " on";
 }
 
-std::string DenoiseSummary::json(const Source& source, const stream::Counts& counts) const {
-  nlohmann::ordered_json rejected = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
-    rejected[std::string(stream::name_of(static_cast<stream::RejectReason>(i)))] = counts.rejected[i];
-  }
+nlohmann::ordered_json DenoiseSummary::axes_json(bool whole_record) const {
   nlohmann::ordered_json axes = nlohmann::ordered_json::object();
   constexpr std::array<const char*, stream::kAxes> kNames = {"x", "y", "z"};
   for (std::size_t i = 0; i < stream::kAxes; ++i) {
@@ -85,10 +97,14 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                        {"mean_imfs", axis.imfs.mean()},
                        {"mean_j", axis.j.mean()},
                        {"mean_k", axis.k.mean()}};
-    if (!source.whole_record) continue;
+    if (!whole_record) continue;
     axes[kNames[i]]["direct_model"] = model_json(longest_[i].direct_model);
     axes[kNames[i]]["imfs"] = imfs_json(longest_[i]);
   }
+  return axes;
+}
+
+std::string DenoiseSummary::json(const Source& source, const stream::Counts& counts) const {
   const auto of_paper = [&source](const std::string& text) {
     return source.method == "paper" ? nlohmann::ordered_json(text) : nlohmann::ordered_json();
   };
@@ -102,15 +118,7 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                                           {"screening", of_paper(source.screening)},
                                           {"models", of_paper(source.models)},
                                           {"sample_rate_hz", sample_rate_hz_},
-                                          {"samples",
-                                           {{"received", counts.received},
-                                            {"denoised", counts.published - counts.passed_through},
-                                            {"passed_through", counts.passed_through},
-                                            {"warming_up", counts.warming_up},
-                                            {"realtime", counts.realtime},
-                                            {"rejected", rejected},
-                                            {"missing", counts.missing},
-                                            {"bridged", counts.bridged}}},
+                                          {"samples", samples_json(counts)},
                                           {"broken_rows", source.broken_rows},
                                           {"gaps", counts.gaps},
                                           {"restarts", counts.restarts},
@@ -120,7 +128,7 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                                            {{"source", words_for(noise_source_)},
                                             {"since_sample", noise_source_since_},
                                             {"windows_at_rest", windows_at_rest_}}},
-                                          {"axes", axes}};
+                                          {"axes", axes_json(source.whole_record)}};
   return summary.dump(2) + "\n";
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "stream/counters.hpp"
 #include "stream/report.hpp"
 
@@ -59,6 +61,7 @@ class DenoiseSummary {
     RunningMoments j;
     RunningMoments k;
   };
+  [[nodiscard]] nlohmann::ordered_json axes_json(bool whole_record) const;
 
   std::array<Axis, stream::kAxes> axes_;
   std::array<core::WindowReport, stream::kAxes> longest_;  ///< reports of the first of the longest windows
