@@ -14,6 +14,7 @@
 #include "app/version.hpp"
 #include "bus/log.hpp"
 #include "settings/enum_names.hpp"
+#include "settings/unused_keys.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -73,6 +74,7 @@ void announce(const settings::Settings& settings, const Service& service) {
   spdlog::info("method {}; noise: {}, {} calibrations, {} sensors remembered",
                settings::name_of(settings.denoise.method), settings::name_of(settings.noise.source),
                service.noise().calibrations(), service.noise().remembered());
+  for (const std::string& line : settings::unused_keys(settings)) spdlog::warn("unused: {}", line);
   if (service.monitor_port() == 0) return;
   spdlog::info("metrics at http://{}:{}/metrics", settings.monitor.address, service.monitor_port());
 }

@@ -3,14 +3,15 @@
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
 #include "settings/load.hpp"
+#include "settings/unused_keys.hpp"
 
 namespace gyrod::app {
 namespace {
 
 int validate(const std::string& config) {
-  const auto issues = settings::validate(config);
-  if (!issues.empty()) throw settings::SettingsError(config, issues);
+  const settings::Settings settings = settings::load_settings(config);
   std::printf("%s is valid\n", config.c_str());
+  for (const std::string& line : settings::unused_keys(settings)) std::printf("  unused: %s\n", line.c_str());
   return kDone;
 }
 
@@ -25,7 +26,8 @@ void add_validate(CLI::App& parser, Action& chosen) {
       ->required();
   command->footer(
       "Every error is reported at once: the key, its value, and what was expected.\n"
-      "Exit code 0 if there is none, else 3.\n\n"
+      "What is set in vain, a key of the other denoise.method, is named as well and is no error.\n"
+      "Exit code 0 if there is no error, else 3.\n\n"
       "Example:\n  gyrod validate --config /etc/gyrod/gyrod.json");
   command->callback([&chosen, config] { chosen = [config](Interrupt&) { return validate(*config); }; });
 }

@@ -62,8 +62,8 @@ std::string heading(const fs::path& file, const std::vector<SettingsIssue>& issu
 
 }  // namespace
 
-SettingsError::SettingsError(const fs::path& file, std::vector<SettingsIssue> issues)
-    : std::runtime_error(heading(file, issues)), issues_(std::move(issues)) {}
+SettingsError::SettingsError(const fs::path& file, const std::vector<SettingsIssue>& issues)
+    : std::runtime_error(heading(file, issues)) {}
 
 Outcome read_settings(std::string_view text, const fs::path& directory) {
   Document document = parse_document(text);
@@ -88,11 +88,9 @@ Outcome read_settings(std::string_view text, const fs::path& directory) {
   return outcome;
 }
 
-std::vector<SettingsIssue> validate(const fs::path& file) { return read_file(file).issues; }
-
 Settings load_settings(const fs::path& file) {
   Outcome outcome = read_file(file);
-  if (!outcome.issues.empty()) throw SettingsError(file, std::move(outcome.issues));
+  if (!outcome.issues.empty()) throw SettingsError(file, outcome.issues);
   return outcome.settings;
 }
 

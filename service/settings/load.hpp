@@ -14,14 +14,10 @@
 
 namespace gyrod::settings {
 
-/// Carries all issues; what() is a heading that names the file, then one line an issue.
+/// what() is a heading that names the file, then one line an issue.
 class SettingsError : public std::runtime_error {
  public:
-  SettingsError(const std::filesystem::path& file, std::vector<SettingsIssue> issues);
-  [[nodiscard]] const std::vector<SettingsIssue>& issues() const noexcept { return issues_; }
-
- private:
-  std::vector<SettingsIssue> issues_;
+  SettingsError(const std::filesystem::path& file, const std::vector<SettingsIssue>& issues);
 };
 
 struct Outcome {
@@ -32,9 +28,6 @@ struct Outcome {
 /// Checks a configuration given as text. Never throws for what the text holds.
 /// @param directory what relative paths inside it are relative to
 [[nodiscard]] Outcome read_settings(std::string_view text, const std::filesystem::path& directory);
-
-/// @return all that is wrong with the file, including that it cannot be read; empty if it is good
-[[nodiscard]] std::vector<SettingsIssue> validate(const std::filesystem::path& file);
 
 /// @throws SettingsError with all that is wrong
 [[nodiscard]] Settings load_settings(const std::filesystem::path& file);

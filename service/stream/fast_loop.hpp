@@ -90,6 +90,10 @@ class FastLoop {
 
   /// What the slow loop writes into, while it owns the channel.
   [[nodiscard]] Model& model(std::size_t axis) noexcept { return *models_[axis]; }
+  /// The stream has ended. @pre the caller owns the channel
+  void reset_models() noexcept {
+    for (auto& model : models_) model->reset();
+  }
 
  private:
   std::array<std::unique_ptr<SampleFilter>, kAxes> filters_;

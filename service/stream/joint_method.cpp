@@ -13,6 +13,7 @@ constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;
 
 struct JointState final : Model {
+  void reset() noexcept override { joint = {}; }
   core::JointModel joint;
 };
 

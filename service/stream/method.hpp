@@ -48,10 +48,14 @@ class WindowMethod {
                        core::WindowReport& report) noexcept = 0;
 };
 
-/// What a model method's slow loop hands to its fast loop; sized once, reused from window to window.
+/// What a model method's slow loop hands to its fast loop; sized once, reused from window to window. May remember what earlier windows
+/// of the same stream said.
 class Model {
  public:
   virtual ~Model() = default;
+  /// Forgets every window, as just made: the stream has ended. Allocates nothing. After a gap, the same sensor going on, it is not
+  /// called.
+  virtual void reset() noexcept = 0;
 };
 
 /// Longest lag of a model method, samples: its filters carry as many past states along.
@@ -88,13 +92,13 @@ class SampleFilter {
   virtual void reset() noexcept = 0;
 };
 
-/// One worker's copy of a model method's slow loop. A call allocates nothing and is a pure function of its
-/// input: the model, too, depends on the window alone, not on what it held before.
+/// One worker's copy of a model method's slow loop. A call allocates nothing and is a pure function of its input, of which the model
+/// as the stream's last window left it is a part: windows of a channel are fitted in their order, by whichever worker.
 class ModelMethod {
  public:
   virtual ~ModelMethod() = default;
   [[nodiscard]] virtual std::size_t min_samples() const noexcept = 0;
-  /// Fits `model` to one axis of one window.
+  /// Fits `model`, the axis's own, to one axis of one window.
   virtual void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept = 0;
 };
 

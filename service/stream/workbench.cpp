@@ -34,6 +34,7 @@ void Workbench::work(Channel& channel, const WindowJob& job, bool pass_through) 
     fit(*std::get<std::unique_ptr<ModelMethod>>(method_), channel, job);
   }
   if (has_report_) describe(channel, job);
+  if (job.ends_stream && channel.fast_loop) channel.fast_loop->reset_models();
 }
 
 /// The measured samples of the part to be released, as they came.

@@ -42,11 +42,13 @@ class WindowMarker final : public stream::WindowMethod {
 
 /// Model method: the model is the last sample of its window; the filter answers x[t - lag] + 1000 * model, and in real time
 /// x[t] + 1000 * model, with the model's square plus one as variance. With samples that count up, the answer tells which window's model
-/// was in use. A rate below kMisfit does not fit the model.
+/// was in use. A rate below kMisfit does not fit the model. The report's output_noise counts the windows that the model remembers.
 inline constexpr double kMisfit = -1e5;
 
 struct LastSampleModel final : stream::Model {
+  void reset() noexcept override { *this = {}; }
   double last = 0.0;
+  double windows = 0.0;  ///< fitted since it was made or reset
 };
 
 class LastSampleFilter final : public stream::SampleFilter {
@@ -91,7 +93,10 @@ class LastSampleMethod final : public stream::ModelMethod {
     if (on_window_) on_window_();
     report = {};
     report.noise_floor = window.samples.back();
-    static_cast<LastSampleModel&>(model).last = window.samples.back();
+    auto& state = static_cast<LastSampleModel&>(model);
+    state.last = window.samples.back();
+    state.windows += 1.0;
+    report.output_noise = state.windows;
   }
 
  private:

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 class SettingsFile : public ::testing::Test {
  protected:
@@ -55,11 +53,6 @@ TEST_F(SettingsFile, TheErrorNamesTheFileAndHoldsEveryIssueOnALineOfItsOwn) {
                                 ": 2 errors\n"
                                 "  workers is -1; expected an integer from 0 to 256 (threads)\n"
                                 "  bus.domain is \"x\"; expected an integer from 0 to 230");
-  EXPECT_THAT(validate(file), SizeIs(2));
-}
-
-TEST_F(SettingsFile, AGoodFileValidatesWithoutIssues) {
-  EXPECT_THAT(validate(write("a.json", "{}")), IsEmpty());
 }
 
 TEST_F(SettingsFile, AMissingFileADirectoryAndADeviceAreErrors) {

@@ -48,6 +48,22 @@ TEST(EngineWithModels, ADelayedWorkerChangesNoBits) {
   EXPECT_TRUE(same_bits(delayed_realtime, realtime));
 }
 
+TEST(EngineWithModels, AModelRemembersTheWindowsOfItsStreamAcrossAGapAndForgetsThemAtItsEnd) {
+  const auto last_count = [](const RecordingSink& sink) {
+    return sink.reports("imu").back().axis[0].output_noise;
+  };
+  RecordingSink sink;
+  Engine engine(small_options(1), testing::last_sample_method(), sink);
+  engine.push("imu", counting_samples(64));
+  engine.push("imu", counting_samples(64, 1000));  // too much is missing for a bridge
+  engine.wait_idle();
+  EXPECT_EQ(last_count(sink), 4.0);
+  engine.end_of_stream("imu");
+  engine.push("imu", counting_samples(32, 2000));
+  engine.wait_idle();
+  EXPECT_EQ(last_count(sink), 1.0);
+}
+
 /// The widest hop; 32 is the hop itself, so that overload step 1 shows in the models' age alone.
 class EngineWithLateModels : public ::testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(WidestHop, EngineWithLateModels, ::testing::Values(32, 64));

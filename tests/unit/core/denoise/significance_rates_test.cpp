@@ -56,6 +56,7 @@ TEST(SignificanceRates, DoNotChangeWithASlowDriveBelow) {
     for (std::size_t i = 0; i < 4; ++i) equal = equal && still.imf[i].imf_class == moving.imf[i].imf_class;
     same += equal ? 1U : 0U;
   }
+  RecordProperty("same_of_200", std::to_string(same));
   EXPECT_GE(same, 190U) << "a false alarm near the bound may come or go";
 }
 
@@ -68,6 +69,7 @@ TEST(SignificanceRates, OfMissedTonesOfHalfTheNoisesEnergyAreSmall) {
     const WindowReport report = screened(sum(noise, tone(kSize, 1.0 / 30.0), 1.0));
     seen += report.j <= 4 ? 1U : 0U;
   }
+  RecordProperty("seen_of_200", std::to_string(seen));
   EXPECT_GE(seen, 199U);
 }
 

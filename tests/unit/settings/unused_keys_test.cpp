@@ -1,0 +1,44 @@
+#include "settings/unused_keys.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "settings/load.hpp"
+
+namespace gyrod::settings {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<std::string> unused(std::string_view text) {
+  const Outcome outcome = read_settings(text, "/");
+  EXPECT_THAT(outcome.issues, IsEmpty());
+  return unused_keys(outcome.settings);
+}
+
+TEST(UnusedKeys, TheDefaultsAskForNothingInVain) {
+  EXPECT_THAT(unused("{}"), IsEmpty());
+  EXPECT_THAT(unused(R"({"denoise": {"method": "paper"}})"), IsEmpty());
+}
+
+TEST(UnusedKeys, AKeyOfTheOtherMethodIsNamedWithItsValueAndBothMethods) {
+  EXPECT_THAT(
+      unused(R"({"denoise": {"scheme": "emd", "max_ar_order": 3}})"),
+      ElementsAre(R"(denoise.scheme is "emd", which is for denoise.method "paper"; it is "joint")",
+                  R"(denoise.max_ar_order is 3, which is for denoise.method "paper"; it is "joint")"));
+  EXPECT_THAT(
+      unused(R"({"denoise": {"method": "paper", "max_signal_hz": 5}})"),
+      ElementsAre(R"(denoise.max_signal_hz is 5.0, which is for denoise.method "joint"; it is "paper")"));
+}
+
+TEST(UnusedKeys, AKeyOfTheMethodInUseAndAKeyAtItsDefaultAreNot) {
+  EXPECT_THAT(unused(R"({"denoise": {"method": "paper", "scheme": "emd", "screening": "paper"}})"),
+              IsEmpty());
+  EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 5}, "bus": {"topics": {"realtime": "now"}}})"),
+              IsEmpty());
+  EXPECT_THAT(unused(R"({"denoise": {"scheme": "improved", "sifts": 10, "boundary": "mirror"}})"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace gyrod::settings
