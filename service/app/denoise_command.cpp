@@ -166,6 +166,15 @@ void add_noise_options(CLI::App& command, DenoiseChoice& flags) {
       ->check(sensor_id());
 }
 
+void add_accelerometer_option(CLI::App& command, RecordingFlags& flags) {
+  command
+      .add_flag(
+          "--accelerometer", flags.options.accelerometer,
+          "Let the recording's accelerometer (accel_x_UNIT ...; mps2, g, mg) help to tell rest, as that of a "
+          "ROS 2 topic does")
+      ->excludes(command.get_option("--batch"));
+}
+
 void add_method_options(CLI::App& command, DenoiseChoice& flags) {
   command
       .add_option(
@@ -225,6 +234,7 @@ void add_denoise(CLI::App& parser, Action& chosen) {
       ->check(one_of({"denoised", "realtime"}));
   add_method_options(*command, flags->choice);
   add_noise_options(*command, flags->choice);
+  add_accelerometer_option(*command, flags->recording);
   flags->recording.add_to(*command);
   command->footer(kFooter);
   command->callback(

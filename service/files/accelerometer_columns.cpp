@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/signal/interpolation.hpp"
+#include "files/accelerometer_units.hpp"
 #include "files/column_names.hpp"
 #include "files/file_error.hpp"
 #include "files/navigation_columns.hpp"
@@ -11,22 +12,11 @@
 namespace gyrod::files {
 namespace {
 
-struct AccelUnit {
-  std::string_view spelling;
-  double mps2;
-};
-constexpr std::array<AccelUnit, 5> kAccelUnits = {{{"mps2", 1.0},
-                                                   {"m_s2", 1.0},
-                                                   {"m/s2", 1.0},
-                                                   {"g", kStandardGravity_mps2},
-                                                   {"mg", 1e-3 * kStandardGravity_mps2}}};
-
 /// Unit of the three columns, or nothing where they are not all there.
 const AccelUnit* unit_of(const ColumnMap& columns) {
   const auto has_all = [&columns](const AccelUnit& unit) {
-    return std::ranges::all_of(std::array{"x", "y", "z"}, [&](const std::string& axis) {
-      return columns.contains("accel_" + axis + "_" + std::string(unit.spelling));
-    });
+    return columns.contains(accel_column(0, unit)) && columns.contains(accel_column(1, unit)) &&
+           columns.contains(accel_column(2, unit));
   };
   const auto* found = std::ranges::find_if(kAccelUnits, has_all);
   return found == kAccelUnits.end() ? nullptr : found;
@@ -65,16 +55,10 @@ std::optional<std::size_t> bridge_gaps(std::vector<double>& values, std::size_t&
 
 Accelerometer accelerometer_of(const Record& record) {
   const AccelUnit* unit = unit_of(record.others);
-  if (unit == nullptr) {
-    throw FileError(
-        record.name +
-        ": no accelerometer; expected the columns accel_x_UNIT, accel_y_UNIT, accel_z_UNIT with one "
-        "UNIT of mps2, g, mg; found " +
-        names_of(record.others));
-  }
+  if (unit == nullptr) throw FileError(record.name + std::string(kNoAccelerometer) + names_of(record.others));
   Accelerometer accelerometer;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string column = "accel_" + std::string(1, "xyz"[i]) + "_" + std::string(unit->spelling);
+    const std::string column = accel_column(i, *unit);
     std::vector<double>& values = accelerometer.specific_force_mps2[i];
     values = record.others.find(column)->second;
     std::size_t at = 0;

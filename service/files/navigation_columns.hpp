@@ -24,8 +24,6 @@
 
 namespace gyrod::files {
 
-inline constexpr double kStandardGravity_mps2 = 9.80665;  ///< 3rd CGPM 1901, exact
-
 struct Accelerometer {
   std::array<std::vector<double>, 3> specific_force_mps2;  ///< finite, one value a sample of the record
   /// Samples whose cell was no number, made by a straight line between their neighbours (the first and the last

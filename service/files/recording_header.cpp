@@ -4,6 +4,7 @@
 #include <cassert>
 #include <vector>
 
+#include "files/accelerometer_units.hpp"
 #include "files/csv_row.hpp"
 #include "files/file_error.hpp"
 
@@ -62,6 +63,18 @@ std::optional<std::size_t> find_column(const Names& names, std::string_view name
   const auto at = std::ranges::find(names, name);
   if (at == names.end()) return std::nullopt;
   return static_cast<std::size_t>(at - names.begin());
+}
+
+void find_accelerometer(const Names& names, RecordingHeader& header) {
+  for (const AccelUnit& unit : kAccelUnits) {
+    const auto x = find_column(names, accel_column(0, unit));
+    const auto y = find_column(names, accel_column(1, unit));
+    const auto z = find_column(names, accel_column(2, unit));
+    if (!x || !y || !z) continue;
+    header.accelerometer = {*x, *y, *z};
+    header.accelerometer_unit_mps2 = unit.mps2;
+    return;
+  }
 }
 
 /// Finds the rate columns of one header and their unit.
@@ -154,6 +167,7 @@ RecordingHeader recognise_columns(std::string_view text, std::string_view file_n
   const Names names = names_of(text, header.separator, file_name);
   header.columns = names.size();
   GyroColumns(names, file_name).find(header, allow_missing_axes);
+  find_accelerometer(names, header);
   for (const auto& [name, exponent] : kTimeNames) {
     if (header.time) break;
     header.time = find_column(names, name);

@@ -3,6 +3,7 @@
 ///     gyro_x_UNIT, gyro_y_UNIT, gyro_z_UNIT   angular rate; UNIT as in rate_unit.hpp, one for all three
 ///     stamp_T | timestamp_T | time_T          time of measurement, T = ns us ms s; of several the finest
 ///     sequence | sample                       number of the sample, counting up by one
+///     accel_x_UNIT, accel_y_UNIT, accel_z_UNIT  specific force; UNIT as in accelerometer_units.hpp, one for all three
 ///     anything else                           passes through (device_ms, temperature, truth, ...)
 ///
 /// Case and blanks around a name do not matter, names may be quoted. Columns are separated by commas,
@@ -29,6 +30,9 @@ struct RecordingHeader {
   RateUnit unit = RateUnit::kRadps;
   /// Column of the rate about x, y, z, counted from 0; nothing for an axis the file does not have.
   std::array<std::optional<std::size_t>, stream::kAxes> gyro;
+  /// Columns of the specific force along x, y, z, where all three are there.
+  std::optional<std::array<std::size_t, stream::kAxes>> accelerometer;
+  double accelerometer_unit_mps2 = 1.0;
   /// Column of the sample's number; where there is none, rows are numbered from 0.
   std::optional<std::size_t> sequence;
   /// Column of the time of measurement; where there is none, stamps are made up from the sequence number.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "files/accelerometer_units.hpp"
 #include "files/csv_row.hpp"
 #include "files/file_error.hpp"
 #include "files/number_text.hpp"
@@ -35,6 +36,8 @@ RecordingReader::RecordingReader(const std::string& path, const ReaderOptions& o
   assert(options.nominal_rate_hz > 0.0);
   [[maybe_unused]] const bool good = split_row(header_.text, header_.separator, names_);
   assert(good);
+  if (options.accelerometer && !header_.accelerometer)
+    throw FileError(lines_.name() + std::string(kNoAccelerometer) + shown(header_.text));
 }
 
 bool RecordingReader::next(RecordingRow& row) {
@@ -67,6 +70,7 @@ std::optional<std::string> RecordingReader::parse(RecordingRow& row) {
            std::to_string(cells_.size()) + ": " + shown(row.text);
   }
   if (auto wrong = parse_rates(row.sample)) return wrong;
+  if (auto wrong = parse_accelerometer(row.sample)) return wrong;
   return parse_sequence_and_stamp(row.sample);
 }
 
@@ -76,6 +80,18 @@ std::optional<std::string> RecordingReader::parse_rates(stream::Sample& sample) 
     const auto value = column ? parse_rate(bare(cells_[*column])) : 0.0;
     if (!value) return complaint(*column, "a number, nan or nothing");
     sample.rate_radps[axis] = to_radps(*value, header_.unit);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> RecordingReader::parse_accelerometer(stream::Sample& sample) const {
+  if (!options_.accelerometer) return std::nullopt;
+  auto& force_mps2 = sample.specific_force_mps2.emplace();
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+    const std::size_t column = (*header_.accelerometer)[axis];
+    const auto value = parse_rate(bare(cells_[column]));
+    if (!value) return complaint(column, "a number, nan or nothing");
+    force_mps2[axis] = *value * header_.accelerometer_unit_mps2;
   }
   return std::nullopt;
 }

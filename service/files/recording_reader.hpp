@@ -21,6 +21,9 @@ struct ReaderOptions {
   /// Take a file without one or two of the axes (a yaw-rate sensor); the missing rates are 0. By default an
   /// error, since a misspelt column must not read as a sensor at rest.
   bool allow_missing_axes = false;
+  /// Read the accelerometer's columns, too: text there that is no number makes a broken row, and its being absent is an error. An empty
+  /// cell, nan and inf read as nan.
+  bool accelerometer = false;
   /// Count broken rows and go on. By default the first one is an error.
   bool skip_broken_rows = false;
 };
@@ -65,6 +68,7 @@ class RecordingReader {
   /// Fills row.sample from row.text. @return what is wrong with the row, or nothing
   [[nodiscard]] std::optional<std::string> parse(RecordingRow& row);
   [[nodiscard]] std::optional<std::string> parse_rates(stream::Sample& sample) const;
+  [[nodiscard]] std::optional<std::string> parse_accelerometer(stream::Sample& sample) const;
   [[nodiscard]] std::optional<std::string> parse_sequence_and_stamp(stream::Sample& sample) const;
   [[nodiscard]] std::string complaint(std::size_t column, std::string_view expected) const;
 

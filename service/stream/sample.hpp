@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace gyrod::stream {
 
@@ -18,6 +19,8 @@ struct Sample {
   std::int64_t stamp_ns = 0;
   /// x, y, z, rad/s.
   std::array<double, kAxes> rate_radps{};
+  /// x, y, z, m/s^2: what the accelerometer beside the gyro measured, where there is one. It only helps to tell rest.
+  std::optional<std::array<double, kAxes>> specific_force_mps2 = {};
 };
 
 /// What a released sample's `flags` say. Bits, combined by or.

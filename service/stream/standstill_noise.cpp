@@ -35,6 +35,13 @@ ChannelNoise calibrated_noise(const CalibratedNoise& calibrated, double sample_r
   return channel_noise(NoiseSource::kCalibrated, models);
 }
 
+/// Nothing where a value is not finite: the accelerometer has failed, or has none to give.
+const core::Triple* force_of(const Sample& sample) noexcept {
+  if (!sample.specific_force_mps2) return nullptr;
+  const core::Triple& force = *sample.specific_force_mps2;
+  return std::ranges::all_of(force, [](double value) { return std::isfinite(value); }) ? &force : nullptr;
+}
+
 double first_rate(const StandstillOptions& options) noexcept {
   if (options.sample_rate_hz > 0.0) return options.sample_rate_hz;
   if (options.remembered) return options.remembered->sample_rate_hz;
@@ -74,7 +81,7 @@ void StandstillNoise::step(const Sample& sample, bool measured, double sample_ra
   follow_rate(sample_rate_hz);
   if (!(rate_hz_ > 0.0)) return;
   if (measured) {
-    learner_.step(sample.rate_radps);
+    learner_.step(sample.rate_radps, force_of(sample));
   } else {
     learner_.interrupt();
   }

@@ -18,6 +18,8 @@ constexpr double kMostEvenSamples = 400.0;
 constexpr double kSteady = 8.0;
 /// Accelerometers flicker more, and far more when they are moved.
 constexpr double kSteadyAccelerometer = 24.0;
+/// Two thousandths of gravity: the last digit of a coarse accelerometer, far below any road.
+constexpr double kMotionless_mps2 = 0.02;
 /// Still sensors have up to 0.28 (an ADIS16405's 20 Hz line), idling cars from 0.5 to 0.98.
 constexpr double kTone = 0.4;
 /// Fewer segments leave the spectrum of noise itself full of lines.
@@ -48,8 +50,10 @@ void RestDetector::retime(double sample_rate_hz) noexcept {
 }
 
 bool RestDetector::step(const Triple& rate, const Triple* accelerometer) noexcept {
+  const std::size_t inputs = accelerometer == nullptr ? 3 : kInputs;
+  if (inputs != inputs_) interrupt();
+  inputs_ = inputs;
   if (in_block_ == 0) fresh_ = {};
-  inputs_ = accelerometer == nullptr ? 3 : kInputs;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     add(axis, rate[axis]);
     if (accelerometer != nullptr) add(3 + axis, (*accelerometer)[axis]);
@@ -125,7 +129,7 @@ RestVerdict RestDetector::judge() noexcept {
   if (std::ranges::all_of(variance_, [](double v) { return !(v > 0.0); })) return RestVerdict::kFrozen;
   for (std::size_t input = 0; input < inputs_; ++input) {
     const double most = input < 3 ? kSteady : kSteadyAccelerometer;
-    if (wandering(windows_[input]) > most) return RestVerdict::kWandering;
+    if (!is_motionless(input, kBlocks) && wandering(windows_[input]) > most) return RestVerdict::kWandering;
   }
   listen();
   if (!listened_) return RestVerdict::kTooEarly;
@@ -145,6 +149,7 @@ void RestDetector::average() noexcept {
 /// With every block of the run, up to seven before.
 bool RestDetector::newest_is_even() const noexcept {
   for (std::size_t input = 0; input < inputs_; ++input) {
+    if (is_motionless(input, std::min(blocks_ + 1, kBlocks))) continue;
     const Window& window = windows_[input];
     double least = window[newest_].variance;
     double most = least;
@@ -156,6 +161,22 @@ bool RestDetector::newest_is_even() const noexcept {
     if (most > even_ratio_ * least) return false;
   }
   return true;
+}
+
+/// The accelerometer's axis has kept to kMotionless_mps2 over so many of the newest blocks.
+bool RestDetector::is_motionless(std::size_t input, std::size_t blocks) const noexcept {
+  if (input < 3) return false;
+  const Window& window = windows_[input];
+  double lowest = window[newest_].mean;
+  double highest = lowest;
+  double loudest = 0.0;
+  for (std::size_t back = 0; back < blocks; ++back) {
+    const Block& block = window[(newest_ + kBlocks - back) % kBlocks];
+    lowest = std::min(lowest, block.mean);
+    highest = std::max(highest, block.mean);
+    loudest = std::max(loudest, block.variance);
+  }
+  return highest - lowest < kMotionless_mps2 && loudest < kMotionless_mps2 * kMotionless_mps2;
 }
 
 /// Spread of the block means in parts of what white noise of the blocks' level explains; 0 where nothing changes.

@@ -31,7 +31,8 @@ enum class RestVerdict : std::uint8_t {
 ///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4.
 /// A block that is not even with those before begins a new run, and eight blocks of a run are judged. A sensor whose own low-pass lies
 /// below about a third of half the sample rate has too few independent samples for this, and is rarely found at rest.
-/// The accelerometer, where there is one, must be even and steady (24, for it flickers), too. Neither level nor bias is judged: that takes a memory
+/// The accelerometer, where there is one, must be even and steady (24, for it flickers), too, or within 0.02 m/s^2 on the axis: of a coarse
+/// one, whose last digit comes and goes, no block is like the other. Neither level nor bias is judged: that takes a memory
 /// (standstill_learner.hpp). The verdict is a function of samples and sample rate alone: no clock.
 /// Constant memory of about 50 kB; nothing allocates after construction. One thread at a time.
 class RestDetector {
@@ -48,7 +49,7 @@ class RestDetector {
   explicit RestDetector(double sample_rate_hz);
 
   /// One sample, finite. @return whether it ended a block, so that verdict(), variance(), mean() and fresh() are new
-  /// @param accelerometer in any unit, or nullptr: always or never
+  /// @param accelerometer specific force, m/s^2, finite, or nullptr. Where this changes from one sample to the next it is a gap
   bool step(const Triple& rate, const Triple* accelerometer = nullptr) noexcept;
 
   /// A gap: what follows does not join what was.
@@ -91,6 +92,7 @@ class RestDetector {
   [[nodiscard]] RestVerdict judge() noexcept;
   [[nodiscard]] bool newest_is_even() const noexcept;
   [[nodiscard]] double wandering(const Window& window) const noexcept;
+  [[nodiscard]] bool is_motionless(std::size_t input, std::size_t blocks) const noexcept;
   void listen() noexcept;
 
   std::size_t block_samples_ = 0;

@@ -57,6 +57,25 @@ TEST_F(RecordingReaderTest, ConvertsToRadiansPerSecond) {
   EXPECT_DOUBLE_EQ(rows.at(0).sample.rate_radps[2], -1.5707963267948966);
 }
 
+TEST_F(RecordingReaderTest, ReadsTheAccelerometerInItsUnitWhereAskedTo) {
+  const std::string text =
+      "gyro_x_radps,gyro_y_radps,gyro_z_radps,Accel_Y_mg,accel_x_mg,accel_z_mg\n1,2,3,10,,1000\n1,2,3,a,0,"
+      "0\n";
+  const ReaderOptions options{.accelerometer = true, .skip_broken_rows = true};
+  const auto rows = read(text, options);
+  ASSERT_EQ(rows.size(), 1U) << "a text is no number";
+  const auto& force = rows[0].sample.specific_force_mps2;
+  ASSERT_TRUE(force);
+  EXPECT_TRUE(std::isnan((*force)[0]));
+  EXPECT_DOUBLE_EQ((*force)[1], 0.0980665);
+  EXPECT_DOUBLE_EQ((*force)[2], 9.80665);
+  EXPECT_EQ(read(text).size(), 2U);
+  EXPECT_FALSE(read(text)[0].sample.specific_force_mps2) << "nobody asked";
+  EXPECT_THAT(
+      [&] { read(std::string(kHeader) + "1,2,3,4,5\n", options); },
+      ThrowsMessage<FileError>(HasSubstr("in.csv: no accelerometer; expected the columns accel_x_UNIT")));
+}
+
 TEST_F(RecordingReaderTest, WithoutTimeStampsFollowTheSequenceAndTheNominalRate) {
   const auto rows =
       read("sample,gyro_x_dps,gyro_y_dps,gyro_z_dps\n5,0,0,0\n7,0,0,0\n", {.nominal_rate_hz = 200.0});

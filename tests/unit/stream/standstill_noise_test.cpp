@@ -113,6 +113,19 @@ TEST(StandstillNoise, AnAxisWithoutAModelIsGivenTheStrongest) {
   EXPECT_EQ(channel_noise(NoiseSource::kCalibrated, {}), ChannelNoise{});
 }
 
+TEST(StandstillNoise, BelievesAnAccelerometerThatFeelsMotionAndNotOneThatHasFailed) {
+  for (const double shake : {0.0, 0.5, std::nan("")}) {
+    StandstillNoise learner({});
+    auto samples = rest_then_motion(3000, 3000);
+    // 0.4 Hz, as a car rolls over a smooth road; of that the gyro sees nothing.
+    for (std::size_t n = 0; n < samples.size(); ++n)
+      samples[n].specific_force_mps2 = {0.0, shake * std::sin(0.025 * static_cast<double>(n)), 9.81};
+    const ChannelNoise noise = after(learner, samples, kHz);
+    EXPECT_EQ(learner.at_rest(), shake != 0.5) << shake;
+    EXPECT_EQ(noise.source, shake == 0.5 ? NoiseSource::kNone : NoiseSource::kStandstill) << shake;
+  }
+}
+
 TEST(StandstillNoise, GivesTheSameReportsForAnyWorkersAndAnyBatching) {
   const auto input = rest_then_motion(6000, 5000);
   const auto sources = [&input](std::size_t workers, std::size_t batch) {

@@ -1,5 +1,7 @@
 #include "core/noise/rest_detector.hpp"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/noise/line_share.hpp"
@@ -130,6 +132,33 @@ TEST(RestDetector, UsesAnAccelerometerWhereThereIsOne) {
     }
     EXPECT_EQ(detector.verdict() == RestVerdict::kRest, shake == 0.0);
   }
+}
+
+TEST(RestDetector, TakesACoarseAccelerometersLastDigitForRest) {
+  const Axes rates = testing::still_axes(4000, 0.35, 3);
+  for (const double digit : {0.0098, 0.098}) {
+    RestDetector detector(100.0);
+    for (std::size_t n = 0; n < 4000; ++n) {
+      // The last digit is set in every third block only: 1 mg, as cheap sensors have it, or ten times as much, which is motion.
+      const bool set = n / 100 % 3 == 0 && n % 10 == 0;
+      const Triple force = {set ? digit : 0.0, 0.0, 9.81};
+      detector.step({rates[0][n], rates[1][n], rates[2][n]}, &force);
+    }
+    EXPECT_EQ(detector.verdict() == RestVerdict::kRest, digit < 0.02) << digit;
+  }
+}
+
+TEST(RestDetector, StartsAgainWhereTheAccelerometerComesOrGoes) {
+  RestDetector detector(100.0);
+  const Axes rates = testing::still_axes(3000, 0.35, 3);
+  const Triple level = {0.0, 0.0, 9.81};
+  std::vector<std::size_t> begins;
+  for (std::size_t n = 0; n < 3000; ++n) {
+    const bool was = detector.verdict() == RestVerdict::kRest;
+    detector.step({rates[0][n], rates[1][n], rates[2][n]}, n / 1000 == 1 ? &level : nullptr);
+    if (!was && detector.verdict() == RestVerdict::kRest) begins.push_back(n);
+  }
+  EXPECT_EQ(begins, (std::vector<std::size_t>{799, 1799, 2799})) << "eight blocks after each change";
 }
 
 TEST(RestDetector, StartsAgainAfterAGap) {
