@@ -22,8 +22,8 @@ std::vector<settings::NoiseCalibration> calibrations_of(const settings::NoiseSet
 NoiseSources::NoiseSources(const settings::NoiseSettings& settings, settings::NoiseStates remembered)
     : source_(settings.source),
       calibrations_(calibrations_of(settings)),
-      remembered_(std::move(remembered)),
-      learned_(remembered_) {}
+      remembered_(remembered.size()),
+      learned_(std::move(remembered)) {}
 
 void NoiseSources::attach_to(stream::EngineOptions& options) {
   if (source_ == settings::NoiseSource::kImf1) return;
@@ -40,7 +40,9 @@ stream::StandstillOptions NoiseSources::options_of(std::string_view sensor, doub
   options.use_learned = source_ != settings::NoiseSource::kCalibrated;
   if (const auto* calibration = settings::calibration_for(calibrations_, sensor))
     options.calibrated = stream::CalibratedNoise{calibration->sample_rate_hz, calibration->models};
-  if (const auto found = remembered_.find(sensor); found != remembered_.end())
+  const std::lock_guard lock(mutex_);
+  // Also of this run: a sensor that was forgotten and is back.
+  if (const auto found = learned_.find(sensor); found != learned_.end() && found->second.rest_seconds > 0.0)
     options.remembered = found->second;
   return options;
 }

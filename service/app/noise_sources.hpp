@@ -34,7 +34,7 @@ class NoiseSources {
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
   [[nodiscard]] std::size_t calibrations() const noexcept { return calibrations_.size(); }
-  [[nodiscard]] std::size_t remembered() const noexcept { return remembered_.size(); }
+  [[nodiscard]] std::size_t remembered() const noexcept { return remembered_; }
 
  private:
   [[nodiscard]] stream::StandstillOptions options_of(std::string_view sensor, double sample_rate_hz) const;
@@ -43,7 +43,7 @@ class NoiseSources {
 
   settings::NoiseSource source_;
   std::vector<settings::NoiseCalibration> calibrations_;
-  settings::NoiseStates remembered_;
+  std::size_t remembered_;  ///< sensors, of an earlier run
   mutable std::mutex mutex_;
   settings::NoiseStates
       learned_;  ///< an entry for every channel from its opening on: later changes allocate nothing

@@ -18,7 +18,7 @@ struct CountMetric {
 };
 
 using stream::Counts;
-constexpr std::array<CountMetric, 14> kCounts = {{
+constexpr std::array<CountMetric, 15> kCounts = {{
     {"gyrod_samples_received_total", "Samples that arrived.", kCounter, &Counts::received},
     {"gyrod_samples_published_total", "Samples released to the output topics.", kCounter, &Counts::published},
     {"gyrod_samples_in_flight", "Samples accepted and not released yet.", kGauge, &Counts::in_flight},
@@ -42,6 +42,8 @@ constexpr std::array<CountMetric, 14> kCounts = {{
      &Counts::realtime},
     {"gyrod_model_misfits_total", "Times the model of an axis ceased to explain the input.", kCounter,
      &Counts::misfits},
+    {"gyrod_silences_total", "Times a sensor sent nothing for so long that its window was closed.", kCounter,
+     &Counts::silences},
 }};
 
 prometheus::MetricFamily rejected_by_reason(const stream::Counts& counts) {
@@ -68,6 +70,10 @@ void add_engine_metrics(const stream::EngineSnapshot& engine, Families& families
   }
   families.push_back(rejected_by_reason(engine.totals));
   add(families, kGauge, "gyrod_sensors", "Sensors that have a channel.", engine.channels);
+  add(families, kGauge, "gyrod_sensors_silent", "Sensors that have sent nothing for limits.silent_after_s.",
+      engine.silent_channels);
+  add(families, kCounter, "gyrod_sensors_forgotten_total",
+      "Sensors whose channel closed after limits.forget_after_s.", engine.forgotten_channels);
   add(families, kGauge, "gyrod_queued_windows", "Windows that wait for a worker.", engine.queued_windows);
   add(families, kGauge, "gyrod_workers", "Worker threads.", engine.workers);
   add(families, kGauge, "gyrod_workers_busy", "Worker threads that compute a window now.",

@@ -48,6 +48,8 @@ void visit_algorithm(Settings& settings, Visit& visit) {
   visit("limits.max_bridged_samples", settings.engine.max_bridged_samples);
   visit("limits.max_queued_windows", settings.engine.max_queued_windows);
   visit("limits.max_delay_s", settings.engine.max_delay_s);
+  visit("limits.silent_after_s", settings.engine.silent_after_s);
+  visit("limits.forget_after_s", settings.engine.forget_after_s);
 }
 
 /// Calls visit(key, member) for every key of the configuration.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -58,6 +59,16 @@ class CrossCheck {
             settings_.bus.input.max_sensors,
             "at least limits.max_channels (" + std::to_string(settings_.engine.max_channels) + ")",
             {"limits.max_channels"});
+  }
+
+  void check_silence() {
+    const stream::EngineOptions& engine = settings_.engine;
+    const bool never = engine.forget_after_s == 0.0;
+    char silent[32];
+    std::snprintf(silent, sizeof silent, "%g", engine.silent_after_s);
+    require(never || engine.forget_after_s >= engine.silent_after_s, "limits.forget_after_s",
+            engine.forget_after_s, std::string("0, or at least limits.silent_after_s (") + silent + ")",
+            {"limits.silent_after_s"});
   }
 
   /// The scatter of white noise's energies is tabulated for one EMD (core/denoise/significance.hpp).
@@ -157,6 +168,7 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_window();
   check.check_method();
   check.check_sensors();
+  check.check_silence();
   check.check_screening();
   check.check_topics();
   check.check_network(directory);

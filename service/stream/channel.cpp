@@ -41,6 +41,17 @@ void Channel::append(const Sample& sample, bool measured) {
   if (const auto update = learner->update()) noise = *update;
 }
 
+void Channel::hear(double now_s) {
+  heard_s_ = now_s;
+  if (silent_) silent_ = false;
+}
+
+void Channel::fall_silent() {
+  silent_ = true;
+  const std::lock_guard lock(mutex_);
+  ++counts_.silences;
+}
+
 bool Channel::has_room() const {
   Position oldest = schedule.oldest_needed(ring.end());
   const std::lock_guard lock(mutex_);
@@ -176,6 +187,11 @@ std::optional<double> Channel::oldest_submission() const {
   return jobs_[first_job_].submitted_s;
 }
 
+bool Channel::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !owned_ && !scheduled_ && job_count_ == 0;
+}
+
 Counts Channel::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
@@ -183,7 +199,7 @@ Counts Channel::counts() const {
 
 ChannelSnapshot Channel::snapshot() const {
   const std::lock_guard lock(mutex_);
-  return {sensor_, counts_, last_report_, job_count_, hop_samples_, rate_hz_, pass_through_};
+  return {sensor_, counts_, last_report_, job_count_, hop_samples_, rate_hz_, pass_through_, silent_};
 }
 
 }  // namespace gyrod::stream

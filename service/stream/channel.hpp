@@ -1,6 +1,7 @@
 /// One sensor's state in the engine.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -41,8 +42,17 @@ class Channel {
   std::optional<FastLoop> fast_loop;  ///< model methods only
   /// Models in use are older than configured, or still missing. Model methods only.
   bool models_late = false;
+  /// The window was closed for silence: the next sample begins a new one, whatever is missing before it.
+  bool asleep = false;
   ChannelNoise noise;                     ///< what windows are given from now on
   std::unique_ptr<NoiseLearner> learner;  ///< may be none
+
+  /// Samples have come at this time of the engine's clock.
+  void hear(double now_s);
+  /// Nothing has come for long: counts it, and what comes next begins a new window.
+  void fall_silent();
+  /// Engine time of the newest push.
+  [[nodiscard]] double heard_s() const noexcept { return heard_s_; }
 
   /// True where one more position may be appended without overwriting what a window still needs.
   [[nodiscard]] bool has_room() const;
@@ -86,6 +96,9 @@ class Channel {
   [[nodiscard]] std::uint64_t next_epoch();
   /// Submission time of the oldest window not done; none where there is none.
   [[nodiscard]] std::optional<double> oldest_submission() const;
+  /// Nobody works on it or is about to: what the intake does not touch, nobody does.
+  [[nodiscard]] bool idle() const;
+  [[nodiscard]] bool silent() const noexcept { return silent_; }
   [[nodiscard]] Counts counts() const;
   [[nodiscard]] ChannelSnapshot snapshot() const;
 
@@ -104,6 +117,8 @@ class Channel {
   NoiseReport last_report_;
   std::uint64_t epoch_ = 0;
   bool pass_through_ = false;
+  double heard_s_ = 0.0;  ///< the intake's alone
+  std::atomic<bool> silent_{false};
   std::optional<ModelOrigin> offered_;
   std::uint32_t hop_samples_ = 0;
   double rate_hz_ = 0.0;

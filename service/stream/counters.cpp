@@ -33,6 +33,7 @@ Counts& Counts::operator+=(const Counts& other) noexcept {
   overloads += other.overloads;
   realtime += other.realtime;
   misfits += other.misfits;
+  silences += other.silences;
   return *this;
 }
 

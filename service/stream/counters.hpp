@@ -49,6 +49,7 @@ struct Counts {
   std::uint64_t overloads = 0;       ///< times overload step 2 (pass-through) was entered
   std::uint64_t realtime = 0;        ///< estimates without look-ahead; stands beside promise 1
   std::uint64_t misfits = 0;         ///< times the model of an axis ceased to explain the input
+  std::uint64_t silences = 0;        ///< times nothing came for so long that the window was closed
 
   [[nodiscard]] std::uint64_t rejected_total() const noexcept;
   Counts& operator+=(const Counts& other) noexcept;
@@ -75,13 +76,16 @@ struct ChannelSnapshot {
   std::uint32_t hop_samples = 0;
   double sample_rate_hz = 0.0;
   bool pass_through = false;  ///< overload step 2 in force
+  bool silent = false;        ///< nothing has come for EngineOptions::silent_after_s
 };
 
 /// The engine as monitoring sees it at one moment. Counts obey promise 1 even while samples flow.
 struct EngineSnapshot {
-  Counts totals;  ///< includes samples that belong to no channel (refused ids)
+  Counts totals;  ///< includes samples that belong to no channel: refused ids, forgotten channels
   std::size_t channels = 0;
-  std::size_t queued_windows = 0;  ///< over all channels
+  std::size_t silent_channels = 0;       ///< see ChannelSnapshot::silent
+  std::uint64_t forgotten_channels = 0;  ///< closed for good; their counts stay in `totals`
+  std::size_t queued_windows = 0;        ///< over all channels
   std::size_t workers = 0;
   std::size_t workers_busy = 0;
   TimeHistogram window_time;    ///< time a worker spent on one window of a sensor

@@ -40,6 +40,10 @@ const EngineOptions& validated(const EngineOptions& options, const MethodFactory
   require("sample_rate_hz", options.sample_rate_hz, 0.0, 1e6);
   require("max_rate_radps", options.max_rate_radps, std::numeric_limits<double>::min(), 1e6);
   require("max_delay_s", options.max_delay_s, 0.01, 3600.0);
+  constexpr double kDay_s = 86400.0;
+  require("silent_after_s", options.silent_after_s, 0.0, kDay_s);
+  if (options.forget_after_s != 0.0)
+    require("forget_after_s", options.forget_after_s, options.silent_after_s, 365.0 * kDay_s);
   return options;
 }
 
@@ -159,13 +163,16 @@ void Engine::Impl::wait_idle() {
 EngineSnapshot Engine::Impl::snapshot() const {
   EngineSnapshot snapshot;
   {
+    // One lock around both: a channel that is forgotten meanwhile is counted once.
     const std::lock_guard lock(homeless_mutex_);
     snapshot.totals = homeless_;
+    snapshot.forgotten_channels = forgotten_;
+    registry_.for_each(options_.max_channels, [&snapshot](const Channel& channel) {
+      snapshot.totals += channel.counts();
+      snapshot.silent_channels += channel.silent() ? 1U : 0U;
+      ++snapshot.channels;
+    });
   }
-  registry_.for_each(options_.max_channels, [&snapshot](const Channel& channel) {
-    snapshot.totals += channel.counts();
-    ++snapshot.channels;
-  });
   {
     const std::lock_guard lock(idle_mutex_);
     snapshot.queued_windows = outstanding_;
@@ -190,6 +197,7 @@ std::size_t Engine::push(std::string_view sensor, std::span<const Sample> sample
   return impl_->push(sensor, samples);
 }
 void Engine::end_of_stream(std::string_view sensor) noexcept { impl_->end_of_stream(sensor); }
+void Engine::tend() noexcept { impl_->tend(); }
 void Engine::hurry_after(std::chrono::milliseconds deadline) noexcept { impl_->hurry_after(deadline); }
 bool Engine::stop(std::chrono::milliseconds deadline) { return impl_->stop(deadline); }
 void Engine::wait_idle() { impl_->wait_idle(); }

@@ -33,7 +33,7 @@ class Sink {
                            std::span<const DenoisedSample> /*samples*/) noexcept {}
   /// One report a window, after the window's samples.
   virtual void on_report(std::string_view sensor, const NoiseReport& report) noexcept = 0;
-  /// The sensor has ended (end_of_stream), after the last of its samples and reports. A stop alone ends no
+  /// The sensor has ended (end_of_stream) or is forgotten (tend), after the last of its samples and reports. A stop alone ends no
   /// sensor.
   virtual void on_end(std::string_view sensor) noexcept = 0;
 };
@@ -62,6 +62,11 @@ struct EngineOptions {
   std::size_t max_bridged_samples = 16;
   /// Age of a waiting window at which overload is declared, s. 0.01..3600.
   double max_delay_s = 1.0;
+  /// A sensor that has sent nothing for so long is silent: what its window holds is released, s. 0..86400, 0: never. See tend().
+  double silent_after_s = 5.0;
+  /// A sensor that has sent nothing for so long, or ended so long ago, is forgotten: its channel closes, s. silent_after_s..31536000,
+  /// or 0: never. See tend().
+  double forget_after_s = 3600.0;
   /// What is known beforehand of a sensor's noise: asked once, when its channel opens. May be empty: nothing. May throw std::bad_alloc
   /// only, which refuses the channel.
   std::function<ChannelNoise(std::string_view sensor)> noise;
@@ -93,6 +98,13 @@ class Engine {
   /// The sensor has ended: releases what its channel holds (flagged kTail) and forgets its window; the
   /// channel and its counts stay, and a later sample opens a new window.
   void end_of_stream(std::string_view sensor) noexcept;
+
+  /// Looks after sensors that send nothing: time alone brings no sample, so whoever pushes calls this several times a second.
+  ///   silent:    its window is closed as by a gap, its last samples flagged kTail; what comes next begins a new window. Where
+  ///              samples were late and not lost, this changes bits and flags against a run in which they came in time;
+  ///   forgotten: the channel closes, and its memory is free for another. Its counts stay in the totals. If it comes back it is new, with
+  ///              the noise that EngineOptions::noise knows by then.
+  void tend() noexcept;
 
   /// Releases all that is held, denoised while the deadline lasts and then passed through: nothing accepted
   /// is lost. After it every push is refused and counted.

@@ -20,7 +20,7 @@
 
 namespace gyrod::stream {
 
-/// Lock order: registry, then channel, then scheduler or idle. In push() and in the workers none is held while the sink or a
+/// Lock order: homeless, then registry, then channel, then scheduler or idle. In push() and in the workers none is held while the sink or a
 /// method runs; stop() walks over the channels under the registry's shared lock.
 class Engine::Impl {
  public:
@@ -28,6 +28,7 @@ class Engine::Impl {
 
   std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
   void end_of_stream(std::string_view sensor) noexcept;
+  void tend() noexcept;
   void hurry_after(std::chrono::milliseconds deadline) noexcept;
   bool stop(std::chrono::milliseconds deadline);
   void wait_idle();
@@ -45,6 +46,8 @@ class Engine::Impl {
   void hop(Channel& channel);
   void close_segment(Channel& channel, bool ends_stream);
   void adjust_hop(Channel& channel);
+  void fall_silent(Channel& channel);
+  void forget(double now_s);
 
   // Fast loop of model methods, in the thread that pushes (intake_models.cpp).
   void step_fast_loop(Channel& channel, const Sample& newest, bool measured);
@@ -80,7 +83,8 @@ class Engine::Impl {
   Clock clock_;
   Registry registry_;
   mutable std::mutex homeless_mutex_;
-  Counts homeless_;                                  ///< samples refused before they had a channel
+  Counts homeless_;              ///< of samples refused before they had a channel, and of forgotten channels
+  std::uint64_t forgotten_ = 0;  ///< channels
   std::vector<std::unique_ptr<Workbench>> benches_;  ///< one a worker, and the intake's at the end
   std::atomic<bool> stopping_{false};
   std::atomic<double> deadline_s_{std::numeric_limits<double>::infinity()};  ///< of the stop

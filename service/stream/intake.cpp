@@ -15,6 +15,7 @@ std::size_t Engine::Impl::push(std::string_view sensor, std::span<const Sample> 
     refuse(samples.size(), refusal);
     return 0;
   }
+  channel->hear(clock_());
   std::size_t accepted = 0;
   for (const Sample& sample : samples) accepted += take(*channel, sample) ? 1U : 0U;
   flush(*channel);
@@ -53,7 +54,9 @@ bool Engine::Impl::take(Channel& channel, const Sample& sample) {
     return false;
   }
   channel.count_accepted(verdict);
-  if (verdict.kind == Verdict::Kind::kAccept) {
+  if (channel.asleep) {
+    channel.asleep = false;
+  } else if (verdict.kind == Verdict::Kind::kAccept) {
     bridge(channel, sample, verdict.bridge);
   } else {
     close_segment(channel, false);
@@ -118,9 +121,45 @@ void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
   if (channel == nullptr || stopping_ || !channel->gate.is_open()) return;
   close_segment(*channel, true);
   channel->gate.reopen();
+  channel->asleep = false;
   if (!channel->fast_loop) return;
   // A worker tells the end; the fast loop must not release samples of the next stream before that.
   wait_while(*channel, [channel] { return channel->oldest_submission().has_value(); });
+}
+
+void Engine::Impl::tend() noexcept {
+  if (stopping_) return;
+  const double now_s = clock_();
+  if (options_.silent_after_s > 0.0) {
+    registry_.for_each(options_.max_channels, [this, now_s](Channel& channel) {
+      const bool quiet = now_s - channel.heard_s() > options_.silent_after_s;
+      if (quiet && !channel.silent() && channel.gate.is_open()) fall_silent(channel);
+    });
+  }
+  if (options_.forget_after_s > 0.0) forget(now_s);
+}
+
+/// The gate stays open: it tells what was missing when the sensor is back.
+void Engine::Impl::fall_silent(Channel& channel) {
+  close_segment(channel, false);
+  channel.asleep = true;
+  channel.fall_silent();
+}
+
+void Engine::Impl::forget(double now_s) {
+  std::vector<std::unique_ptr<Channel>> forgotten;
+  {
+    const std::lock_guard lock(homeless_mutex_);
+    forgotten = registry_.remove_if([&](const Channel& channel) {
+      const bool over = channel.silent() || !channel.gate.is_open();
+      return over && now_s - channel.heard_s() > options_.forget_after_s && channel.idle();
+    });
+    for (const auto& channel : forgotten) homeless_ += channel->counts();
+    forgotten_ += forgotten.size();
+  }
+  for (const auto& channel : forgotten) {
+    if (channel->gate.is_open()) sink_.on_end(channel->sensor());
+  }
 }
 
 }  // namespace gyrod::stream

@@ -28,12 +28,14 @@ inline stream::ChannelSnapshot busy_sensor(std::string name) {
                    .gaps = 1,
                    .windows = 15,
                    .realtime = 490,
-                   .misfits = 6};
+                   .misfits = 6,
+                   .silences = 4};
   sensor.counts.rejected[0] = 3;
   sensor.counts.rejected[2] = 7;
   sensor.queued_windows = 2;
   sensor.hop_samples = 64;
   sensor.sample_rate_hz = 99.5;
+  sensor.silent = true;
   stream::NoiseReport& report = sensor.last_report;
   report.model_epoch = 15;
   report.last_stamp_ns = 1'700'000'000'500'000'000;
@@ -81,9 +83,12 @@ inline Shown busy_gyrod() {
             .hops_widened = 5,
             .overloads = 1,
             .realtime = 980,
-            .misfits = 8};
+            .misfits = 8,
+            .silences = 5};
   for (std::size_t i = 0; i < stream::kRejectReasons; ++i) totals.rejected[i] = i + 1;
   shown.engine.channels = 2;
+  shown.engine.silent_channels = 1;
+  shown.engine.forgotten_channels = 7;
   shown.engine.queued_windows = 6;
   shown.engine.workers = 4;
   shown.engine.workers_busy = 3;

@@ -70,6 +70,9 @@ TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
                                                   {"gyrod_overloads_total", 1},
                                                   {"gyrod_samples_realtime_total", 980},
                                                   {"gyrod_model_misfits_total", 8},
+                                                  {"gyrod_silences_total", 5},
+                                                  {"gyrod_sensors_silent", 1},
+                                                  {"gyrod_sensors_forgotten_total", 7},
                                                   {"gyrod_sensors", 2},
                                                   {"gyrod_queued_windows", 6},
                                                   {"gyrod_workers", 4},
@@ -151,6 +154,8 @@ TEST(Metrics, FiguresOfASensorAndItsAxesAreThoseOfItsLastReport) {
   EXPECT_EQ(value_of(families, "gyrod_sensor_samples_realtime_total", sensor), 490.0);
   EXPECT_EQ(value_of(families, "gyrod_sensor_model_misfits_total", sensor), 6.0);
   EXPECT_EQ(value_of(families, "gyrod_sensor_at_rest", sensor), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_silent", sensor), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_silences_total", sensor), 4.0);
   EXPECT_EQ(value_of(families, "gyrod_axis_normalised_innovation", y), 3.0);
 }
 
@@ -189,7 +194,7 @@ TEST(Metrics, ASensorHasAsManySeriesAsTheManualSays) {
       if (label != one.labels.end() && label->second == "imu_front") ++series;
     }
   }
-  EXPECT_EQ(series, 40U);  // MonitorOptions::max_channel_series, docs/configuration.md
+  EXPECT_EQ(series, 42U);  // MonitorOptions::max_channel_series, docs/configuration.md
 }
 
 TEST(Metrics, SensorsBeyondTheCapAreCountedInstead) {

@@ -108,7 +108,8 @@ TEST(SettingsAgreement, TheBoundsAreThoseDocumentedAtTheEngine) {
       {"denoise.window_samples", {64, 65536}}, {"denoise.hop_samples", {1, 32768}},
       {"limits.max_hop_samples", {1, 32768}},  {"denoise.lag_samples", {0, 16384}},
       {"limits.max_queued_windows", {1, 64}},  {"limits.max_channels", {1, 100000}},
-      {"limits.max_delay_s", {0.01, 3600}},    {"limits.max_bridged_samples", {0, 16384}}};
+      {"limits.max_delay_s", {0.01, 3600}},    {"limits.max_bridged_samples", {0, 16384}},
+      {"limits.silent_after_s", {0, 86400}},   {"limits.forget_after_s", {0, 31536000}}};
   const auto keys = schema_keys();
   for (const auto& [key, bounds] : documented) {
     EXPECT_EQ(keys.at(key).at("minimum").get<double>(), bounds.first) << key;

@@ -145,6 +145,14 @@ TEST(SettingsIssues, AModelMethodLooksNoFurtherAheadThanItsFiltersCarry) {
   EXPECT_THAT(messages(R"({"denoise": {"lag_samples": 33}})"), Contains(lag)) << "joint is the default";
 }
 
+TEST(SettingsIssues, NobodyIsForgottenBeforeBeingSilent) {
+  EXPECT_THAT(
+      messages(R"({"limits": {"silent_after_s": 10, "forget_after_s": 9.5}})"),
+      ElementsAre("limits.forget_after_s is 9.5; expected 0, or at least limits.silent_after_s (10)"));
+  EXPECT_THAT(messages(R"({"limits": {"silent_after_s": 10, "forget_after_s": 0}})"), IsEmpty());
+  EXPECT_THAT(messages(R"({"limits": {"silent_after_s": 10, "forget_after_s": 10}})"), IsEmpty());
+}
+
 TEST(SettingsIssues, TopicsHaveToDifferAndToBeNames) {
   EXPECT_THAT(
       messages(R"({"bus": {"topics": {"denoised": "gyro/raw"}}})"),
