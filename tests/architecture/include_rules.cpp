@@ -21,9 +21,9 @@ const std::vector<Room>& rooms() {
   static const std::vector<Room> table = {
       {"core/signal", {}, {"Eigen/", "unsupported/Eigen/"}},
       {"core/emd", {"core/signal"}, {"Eigen/", "emmintrin.h", "immintrin.h"}},
-      {"core/denoise", {"core/signal", "core/emd"}, {"Eigen/", "unsupported/Eigen/"}},
+      {"core/denoise", {"core/signal", "core/emd"}, {"Eigen/"}},
       {"core/simulation", {}, {"Eigen/"}},
-      {"core/allan", {"core/signal"}, {"Eigen/", "unsupported/Eigen/"}},
+      {"core/allan", {"core/signal"}, {"Eigen/"}},
       {"core/inertial", {}, {"Eigen/"}},
       {"core/noise", {"core/signal"}, {"Eigen/"}},
       {"core/joint",

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/allan/chi_squared.hpp"
 #include "core/allan/degrees_of_freedom.hpp"
+#include "core/signal/chi_squared.hpp"
 #include "core/signal/moments.hpp"
 
 namespace gyrod::core {

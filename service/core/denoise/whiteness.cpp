@@ -4,15 +4,9 @@
 #include <cassert>
 #include <cmath>
 
-#include <Eigen/Core>
-#include <unsupported/Eigen/SpecialFunctions>
+#include "core/signal/chi_squared.hpp"
 
 namespace gyrod::core {
-
-double chi_square_tail(double x, std::size_t degrees_of_freedom) noexcept {
-  assert(degrees_of_freedom >= 1 && x >= 0.0);
-  return Eigen::numext::igammac(0.5 * static_cast<double>(degrees_of_freedom), 0.5 * x);
-}
 
 std::size_t whiteness_lags(std::size_t samples, std::size_t parameters) noexcept {
   const std::size_t lags = std::min(parameters + kWhitenessFreedom, samples / 4);
@@ -34,7 +28,7 @@ Whiteness test_whiteness(std::span<const double> acf, std::size_t samples, std::
   }
   result.ljung_box_q = n * (n + 2.0) * sum;
   result.degrees_of_freedom = result.lags - parameters;
-  result.p_value = chi_square_tail(result.ljung_box_q, result.degrees_of_freedom);
+  result.p_value = chi_squared_tail(result.ljung_box_q, static_cast<double>(result.degrees_of_freedom));
   result.adequate = result.p_value >= kSignificance;
   result.within_bands = result.lags_outside <= 1 + result.lags / 10;
   return result;

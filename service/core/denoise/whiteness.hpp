@@ -36,7 +36,4 @@ struct Whiteness {
 /// h = p + q + kWhitenessFreedom, at most N / 4; 0 where that leaves no degree of freedom.
 [[nodiscard]] std::size_t whiteness_lags(std::size_t samples, std::size_t parameters) noexcept;
 
-/// P(X >= x) of a chi-square variable. @pre degrees_of_freedom >= 1, x >= 0
-[[nodiscard]] double chi_square_tail(double x, std::size_t degrees_of_freedom) noexcept;
-
 }  // namespace gyrod::core

@@ -2,13 +2,12 @@
 // purpose.
 #include "core/denoise/significance.hpp"
 
-#include <cmath>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "core/denoise/noise_line.hpp"
-#include "core/denoise/whiteness.hpp"
+#include "core/signal/chi_squared.hpp"
 #include "denoiser_support.hpp"
 
 namespace gyrod {
@@ -20,16 +19,15 @@ using core::ScreeningRule;
 using core::SignificanceTest;
 using namespace testing;
 
-// The tails of chi-squared(nu) / nu at the band's bounds are half the false-alarm rate each. nu is whole for the tail function, so the
-// band is that of a neighbour at most half a degree off; that, and Wilson and Hilferty at 20 degrees, makes less than a fifth.
+// The tails of chi-squared(nu) / nu at the band's bounds are half the false-alarm rate each; Wilson and Hilferty at 20 degrees makes
+// less than a fifth of that.
 TEST(SignificanceTest, BandLeavesTheFalseAlarmRateOfChiSquaredOutside) {
   for (const double rate : {0.01, 0.05}) {
     for (const std::size_t imf : {2U, 4U, 5U}) {
       const double freedom = core::noise_freedom(imf, 1024);
-      const auto whole = static_cast<std::size_t>(std::lround(freedom));
       const NoiseBand band = SignificanceTest(rate).band(imf, 1024);
-      const double above = core::chi_square_tail(band.upper * freedom, whole);
-      const double below = 1.0 - core::chi_square_tail(band.lower * freedom, whole);
+      const double above = core::chi_squared_tail(band.upper * freedom, freedom);
+      const double below = core::chi_squared_probability(band.lower * freedom, freedom);
       EXPECT_NEAR(above, 0.5 * rate, 0.1 * rate) << "IMF " << imf;
       EXPECT_NEAR(below, 0.5 * rate, 0.1 * rate) << "IMF " << imf;
     }

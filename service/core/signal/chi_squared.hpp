@@ -8,6 +8,10 @@ namespace gyrod::core {
 /// @pre degrees > 0, x >= 0
 [[nodiscard]] double chi_squared_probability(double x, double degrees) noexcept;
 
+/// P(that > x) = 1 - chi_squared_probability(x, degrees), without the loss of digits where it is small.
+/// @pre degrees > 0, x >= 0
+[[nodiscard]] double chi_squared_tail(double x, double degrees) noexcept;
+
 /// The x with chi_squared_probability(x, degrees) = probability, to 1e-10 relative.
 /// @pre degrees > 0, 0 < probability < 1
 [[nodiscard]] double chi_squared_quantile(double probability, double degrees) noexcept;

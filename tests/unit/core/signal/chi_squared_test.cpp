@@ -1,5 +1,5 @@
 // Quantiles against the closed form for two degrees of freedom and the printed tables.
-#include "core/allan/chi_squared.hpp"
+#include "core/signal/chi_squared.hpp"
 
 #include <cmath>
 
@@ -56,6 +56,37 @@ TEST(ChiSquared, HasNoStepWhereTheMethodChanges) {
     const double below = chi_squared_quantile(p, core::kNormalFromDegrees * (1.0 - 1e-12));
     const double above = chi_squared_quantile(p, core::kNormalFromDegrees);
     EXPECT_NEAR(above / below, 1.0, 1e-6) << p;
+  }
+}
+
+// Upper percentage points of the chi-squared distribution as any table prints them, to three decimals, which moves the tail by less
+// than 1e-4.
+TEST(ChiSquaredTail, IsThatOfThePrintedTable) {
+  EXPECT_NEAR(core::chi_squared_tail(3.841, 1.0), 0.05, 1e-4);
+  EXPECT_NEAR(core::chi_squared_tail(6.635, 1.0), 0.01, 1e-4);
+  EXPECT_NEAR(core::chi_squared_tail(18.307, 10.0), 0.05, 1e-4);
+  EXPECT_NEAR(core::chi_squared_tail(31.410, 20.0), 0.05, 1e-4);
+  EXPECT_NEAR(core::chi_squared_tail(37.566, 20.0), 0.01, 1e-4);
+  EXPECT_NEAR(core::chi_squared_tail(43.773, 30.0), 0.05, 1e-4);
+  EXPECT_EQ(core::chi_squared_tail(0.0, 5.0), 1.0);
+}
+
+// Two degrees of freedom: the tail is exp(-x / 2).
+TEST(ChiSquaredTail, OfTwoDegreesIsTheExponential) {
+  for (const double x : {0.1, 1.0, 5.0, 40.0})
+    EXPECT_NEAR(core::chi_squared_tail(x, 2.0), std::exp(-0.5 * x), 1e-14) << x;
+}
+
+// On both sides of the border to Wilson and Hilferty's cube root. Tolerance: near the border both have exp(a ln(x/2) - x/2 - ln Gamma(a)),
+// a = degrees / 2, whose terms of 1e5 are rounded to 1e-11.
+TEST(ChiSquaredTail, AndProbabilityAddUpToOne) {
+  for (const double degrees :
+       {1.0, 20.0, 1000.0, 0.99 * core::kNormalFromDegrees, 1.01 * core::kNormalFromDegrees}) {
+    for (const double share : {0.5, 0.99, 1.0, 1.01, 1.5}) {
+      const double x = share * degrees;
+      EXPECT_NEAR(core::chi_squared_tail(x, degrees) + core::chi_squared_probability(x, degrees), 1.0, 1e-10)
+          << x;
+    }
   }
 }
 

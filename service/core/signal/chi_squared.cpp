@@ -1,4 +1,4 @@
-#include "core/allan/chi_squared.hpp"
+#include "core/signal/chi_squared.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -18,6 +18,12 @@ struct CubeRoot {
 };
 
 double normal_probability(double z) noexcept { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+/// The normal variable that x stands for.
+double cube_root_normal(double x, double degrees) noexcept {
+  const CubeRoot root(degrees);
+  return (std::cbrt(x / degrees) - root.mean) / std::sqrt(root.variance);
+}
 
 double cube_root_quantile(double probability, double degrees) noexcept {
   const CubeRoot root(degrees);
@@ -50,8 +56,13 @@ double density(double x, double degrees) noexcept {
 double chi_squared_probability(double x, double degrees) noexcept {
   assert(degrees > 0.0 && x >= 0.0);
   if (degrees < kNormalFromDegrees) return Eigen::numext::igamma(0.5 * degrees, 0.5 * x);
-  const CubeRoot root(degrees);
-  return normal_probability((std::cbrt(x / degrees) - root.mean) / std::sqrt(root.variance));
+  return normal_probability(cube_root_normal(x, degrees));
+}
+
+double chi_squared_tail(double x, double degrees) noexcept {
+  assert(degrees > 0.0 && x >= 0.0);
+  if (degrees < kNormalFromDegrees) return Eigen::numext::igammac(0.5 * degrees, 0.5 * x);
+  return normal_probability(-cube_root_normal(x, degrees));
 }
 
 double chi_squared_quantile(double probability, double degrees) noexcept {
