@@ -14,11 +14,12 @@ constexpr std::array<std::string_view, 3> kStyles = {"uplot.css", "page.css", "r
 /// What a page is made of besides the styles, which all share.
 struct Parts {
   std::string_view page;
-  std::array<std::string_view, 4> scripts;
+  std::array<std::string_view, 5> scripts;
 };
-constexpr Parts kReport = {"report.html", {"uplot.js", "charts.js", "report_figures.js", "report.js"}};
+constexpr Parts kReport = {"report.html",
+                           {"uplot.js", "charts.js", "tabs.js", "report_figures.js", "report.js"}};
 constexpr Parts kEvaluation = {"evaluation.html",
-                               {"uplot.js", "charts.js", "report_figures.js", "evaluation.js"}};
+                               {"uplot.js", "charts.js", "tabs.js", "report_figures.js", "evaluation.js"}};
 
 std::string elements(std::span<const std::string_view> names, std::string_view tag) {
   std::string text;

@@ -1,7 +1,7 @@
 /// Scripts, styles and templates of gyrod's pages, built into the binary: pages load nothing from anywhere.
 ///
 ///     uplot.js, uplot.css, uplot.license   the plotting library, from npm, version pinned in package-lock.json
-///     page.css, charts.js                  look and chart helpers that all pages share
+///     page.css, charts.js, tabs.js         look, chart helpers and tabs that all pages share
 ///     report.html, report.css, report_figures.js, report.js   the report page (service/report)
 ///     evaluation.html, evaluation.js       the page of `gyrod evaluate`, with the report's styles and figure helpers
 #pragma once

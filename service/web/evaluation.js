@@ -172,51 +172,10 @@
       row.turns.map((t) => ({ strong: t.name !== "Butterworth", cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), 2);
   }
 
-  function buildPanel(i) {
-    const panel = byId(`panel-${i}`);
-    if (panel.childElementCount > 0) return;
-    const row = evaluation.rows[i];
-    panel.append(element("h2", rowName(row), "axis-name"));
+  function fillPanel(panel, row) {
     for (const build of [errorsCard, guardsCard, turnsCard]) build(panel, row);
   }
 
-  function choose(chosen) {
-    evaluation.rows.forEach((_, i) => {
-      byId(`tab-${i}`).setAttribute("aria-selected", String(i === chosen));
-      byId(`tab-${i}`).tabIndex = i === chosen ? 0 : -1;
-      byId(`panel-${i}`).hidden = i !== chosen;
-    });
-    buildPanel(chosen);
-  }
-
-  function tabs() {
-    const count = evaluation.rows.length;
-    evaluation.rows.forEach((row, i) => {
-      const tab = element("button", rowName(row));
-      tab.type = "button";
-      tab.id = `tab-${i}`;
-      tab.setAttribute("role", "tab");
-      tab.setAttribute("aria-controls", `panel-${i}`);
-      tab.addEventListener("click", () => choose(i));
-      byId("rows").append(tab);
-      const panel = element("div", undefined, "panel");
-      panel.id = `panel-${i}`;
-      panel.setAttribute("role", "tabpanel");
-      panel.setAttribute("aria-labelledby", tab.id);
-      byId("panels").append(panel);
-    });
-    byId("rows").addEventListener("keydown", (event) => {
-      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-      if (!step) return;
-      const at = evaluation.rows.findIndex((_, i) => byId(`tab-${i}`) === document.activeElement);
-      const next = (at + step + count) % count;
-      choose(next);
-      byId(`tab-${next}`).focus();
-    });
-    choose(0);
-  }
-
   head();
-  tabs();
-  gyrodCharts.page.beforePrint = () => evaluation.rows.forEach((_, i) => buildPanel(i));
+  gyrodTabs.make(evaluation.rows.map((row, i) => ({ id: i, title: rowName(row), build: (panel) => fillPanel(panel, row) })));
 })();

@@ -193,53 +193,11 @@
     }
   }
 
-  function buildPanel(name) {
-    const panel = byId(`panel-${name}`);
-    if (panel.childElementCount > 0) return;
-    const axis = report.axes[name];
-    panel.append(element("h2", `${name} axis`, "axis-name"));
-    for (const build of [recordSection, decompositionSection, modelSection, beforeAfterSection, allanSection]) build(panel, name, axis);
-  }
-
-  function choose(name) {
-    for (const other of Object.keys(report.axes)) {
-      const chosen = other === name;
-      byId(`tab-${other}`).setAttribute("aria-selected", String(chosen));
-      byId(`tab-${other}`).tabIndex = chosen ? 0 : -1;
-      byId(`panel-${other}`).hidden = !chosen;
-    }
-    buildPanel(name);
-  }
-
-  function tabs() {
-    const names = Object.keys(report.axes);
-    for (const name of names) {
-      const tab = element("button", `${name} axis`);
-      tab.type = "button";
-      tab.id = `tab-${name}`;
-      tab.setAttribute("role", "tab");
-      tab.setAttribute("aria-controls", `panel-${name}`);
-      tab.addEventListener("click", () => choose(name));
-      byId("axes").append(tab);
-      const panel = element("div", undefined, "panel");
-      panel.id = `panel-${name}`;
-      panel.setAttribute("role", "tabpanel");
-      panel.setAttribute("aria-labelledby", tab.id);
-      byId("panels").append(panel);
-    }
-    byId("axes").addEventListener("keydown", (event) => {
-      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-      if (!step) return;
-      const at = names.findIndex((name) => byId(`tab-${name}`) === document.activeElement);
-      const next = names[(at + step + names.length) % names.length];
-      choose(next);
-      byId(`tab-${next}`).focus();
-    });
-    choose(names[0]);
+  function fillPanel(panel, name) {
+    for (const build of [recordSection, decompositionSection, modelSection, beforeAfterSection, allanSection]) build(panel, name, report.axes[name]);
   }
 
   head();
-  tabs();
+  gyrodTabs.make(Object.keys(report.axes).map((name) => ({ id: name, title: `${name} axis`, build: (panel) => fillPanel(panel, name) })));
   navigationSection();
-  gyrodCharts.page.beforePrint = () => Object.keys(report.axes).forEach(buildPanel);
 })();
