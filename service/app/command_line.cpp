@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "app/command.hpp"
 #include "app/errors.hpp"
@@ -20,6 +21,18 @@ int complain(const std::exception& error, ExitCode code) noexcept {
   return code;
 }
 
+/// What is wrong with the first word where that is no subcommand, or nothing.
+std::string unknown_command(const CLI::App& parser, int argc, const char* const* argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.empty() || word.front() == '-') return {};
+  std::string message = "unknown command '" + word + "'; expected one of:";
+  for (const CLI::App* command : parser.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->check_name(word)) return {};
+    message += " " + command->get_name();
+  }
+  return message;
+}
+
 int parse_and_act(int argc, const char* const* argv) {
   CLI::App parser(
       "gyrod denoises MEMS gyroscopes: live on Cyclone DDS topics (run), or a recording (denoise).\n"
@@ -33,6 +46,11 @@ int parse_and_act(int argc, const char* const* argv) {
   for (const auto add : {add_run, add_validate, add_denoise, add_decompose, add_allan, add_calibrate,
                          add_navigate, add_report, add_evaluate, add_replay, add_record, add_simulate})
     add(parser, chosen);
+  const std::string unknown = unknown_command(parser, argc, argv);
+  if (!unknown.empty()) {
+    std::fprintf(stderr, "gyrod: %s\nRun with --help for more information.\n", unknown.c_str());
+    return kWrongUsage;
+  }
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -18,6 +18,14 @@ std::size_t chunk_of(const SendFlags& flags) {
   return std::max<std::size_t>(1, kSamplesAtOnce / flags.batch) * flags.batch;
 }
 
+/// The same flags, once the bus is known to take their batches.
+const SendFlags& checked(const SendFlags& flags, const settings::BusSettings& settings) {
+  if (flags.batch <= settings.max_batch_samples) return flags;
+  throw CLI::ValidationError(
+      "--batch", "'" + std::to_string(flags.batch) + "' given; expected a number from 1 to " +
+                     std::to_string(settings.max_batch_samples) + ", which is bus.max_batch_samples");
+}
+
 }  // namespace
 
 void SendFlags::add_to(CLI::App& command) {
@@ -32,7 +40,7 @@ void SendFlags::add_to(CLI::App& command) {
 
 SampleSender::SampleSender(const settings::BusSettings& settings, const SendFlags& flags,
                            Interrupt& interrupt)
-    : topic_(flags.batch == 1 ? settings.topics.raw : settings.topics.raw_batch),
+    : topic_(checked(flags, settings).batch == 1 ? settings.topics.raw : settings.topics.raw_batch),
       sensor_(flags.sensor),
       chunk_(chunk_of(flags)),
       interrupt_(interrupt),

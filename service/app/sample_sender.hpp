@@ -33,7 +33,7 @@ struct SendFlags {
 class SampleSender {
  public:
   /// Joins the domain and waits for a reader.
-  /// @throws bus::BusError; Incomplete if nobody reads within flags.wait_s
+  /// @throws CLI::ValidationError for a batch above settings.max_batch_samples; bus::BusError; Incomplete if nobody reads within flags.wait_s
   SampleSender(const settings::BusSettings& settings, const SendFlags& flags, Interrupt& interrupt);
 
   /// Sends the sample when it is due, together with its batch.

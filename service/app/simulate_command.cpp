@@ -63,7 +63,10 @@ void ErrorFlags::add_to(CLI::App& command) {
   add("--rate-random-walk", rate_random_walk_dph_per_sqrt_h, "DEG/H/SQRT(H)", "Random walk of the bias [62]");
   add("--step", step_dps, "DEG/S", "Step of the converter; 0 for none [0.05]");
   add("--range", range_dps, "DEG/S", "Largest rate it can tell; 0 for no limit [300]");
-  command.add_option("--bias", bias_dps, "Constant bias [0]")->type_name("DEG/S")->group("Sensor errors");
+  command.add_option("--bias", bias_dps, "Constant bias [0]")
+      ->type_name("DEG/S")
+      ->check(in_range(-kMost, kMost))
+      ->group("Sensor errors");
 }
 
 core::GyroErrorOptions ErrorFlags::options() const {

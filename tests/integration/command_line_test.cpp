@@ -55,6 +55,22 @@ TEST_F(CommandLine, WrongUsageIsExitCode2) {
   EXPECT_EQ(run({"replay", "x.csv", "--sensor", "imu", "--batch", "0"}).exit_code, ExitCode::kWrongUsage);
 }
 
+TEST_F(CommandLine, AnUnknownCommandIsNamedBesideThoseThatAre) {
+  const Result result = run({"denoice", "in.csv"});
+  EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("'denoice'"), HasSubstr("run validate denoise"), HasSubstr("simulate")));
+}
+
+TEST_F(CommandLine, AFlagOutOfItsRangeIsNamedWithItsValueAndTheRange) {
+  Result result = run({"simulate", "-o", path("out.csv"), "--bias", "nan"});
+  EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--bias"), HasSubstr("'nan'"), HasSubstr("expected a number")));
+  result = run({"simulate", "--batch", "1025"});
+  EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--batch"), HasSubstr("'1025'"), HasSubstr("1 to 1024")));
+}
+
 TEST_F(CommandLine, HelpAndVersionAreExitCode0) {
   EXPECT_THAT(run({"--version"}).out, HasSubstr("gyrod 0."));
   for (const std::string command : {"run", "validate", "denoise", "decompose", "allan", "navigate", "report",
