@@ -5,6 +5,7 @@
 #include "app/flags.hpp"
 #include "app/options.hpp"
 #include "core/denoise/record_analysis.hpp"
+#include "settings/load.hpp"
 #include "settings/noise_calibration.hpp"
 #include "stream/method.hpp"
 
@@ -28,7 +29,8 @@ void choose_method(const DenoiseChoice& choice, settings::Settings& settings) {
 }
 
 void choose_screening(const DenoiseChoice& choice, settings::DenoiseSettings& denoise) {
-  const bool paper = choice.screening == "paper" || (choice.batch && choice.screening.empty());
+  const bool configured = !choice.config.empty() && settings::gives(choice.config, "denoise.screening");
+  const bool paper = choice.screening == "paper" || (choice.batch && choice.screening.empty() && !configured);
   if (paper) denoise.screening = settings::Screening::kPaper;
   if (choice.screening == "windowed") denoise.screening = settings::Screening::kWindowed;
   if (choice.screening != "significance") return;

@@ -14,7 +14,7 @@ struct DenoiseChoice {
   std::string config;
   std::string method;
   std::string scheme;     ///< this and the next three concern method paper, and imply it
-  std::string screening;  ///< for a whole record the paper's
+  std::string screening;  ///< of a whole record, where nothing is configured either: the paper's
   bool batch = false;
   std::string models;  ///< of a whole record; empty: identified
   std::string estimate = "denoised";

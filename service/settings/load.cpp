@@ -94,4 +94,9 @@ Settings load_settings(const fs::path& file) {
   return outcome.settings;
 }
 
+bool gives(const fs::path& file, std::string_view key) {
+  const Document document = parse_document(read_text_file(file, kMaxFileMebibytes).text);
+  return given_value(document.root, key) != nullptr;
+}
+
 }  // namespace gyrod::settings

@@ -32,4 +32,8 @@ struct Outcome {
 /// @throws SettingsError with all that is wrong
 [[nodiscard]] Settings load_settings(const std::filesystem::path& file);
 
+/// Whether the file itself gives the key, "denoise.screening" say, be it with its default.
+/// @pre load_settings() takes the file
+[[nodiscard]] bool gives(const std::filesystem::path& file, std::string_view key);
+
 }  // namespace gyrod::settings
