@@ -4,10 +4,19 @@
 #include <future>
 #include <utility>
 
+#include "app/abandonable.hpp"
 #include "core/signal/interpolation.hpp"
 
 namespace gyrod::app {
 namespace {
+
+/// Rows handed on between two looks: some ten milliseconds.
+constexpr std::size_t kLookUpEvery = 4096;
+
+struct Whole {
+  std::array<std::vector<double>, stream::kAxes> denoised;
+  std::array<core::WindowReport, stream::kAxes> reports;
+};
 
 struct Axis {
   std::vector<double> denoised;
@@ -24,10 +33,11 @@ Axis denoise_axis(const std::vector<double>& measured, const core::DenoiserOptio
 }  // namespace
 
 BatchDenoiser::BatchDenoiser(const settings::Settings& settings, const core::DenoiserOptions& options,
-                             RowHandler& handler, DenoiseSummary& summary)
+                             RowHandler& handler, DenoiseSummary& summary, std::function<bool()> wanted)
     : options_(options),
       handler_(handler),
       summary_(summary),
+      wanted_(std::move(wanted)),
       gate_({.sample_rate_hz = settings.engine.sample_rate_hz,
              .max_rate_radps = settings.engine.max_rate_radps,
              .max_bridged_samples = settings.engine.max_bridged_samples}) {}
@@ -63,20 +73,33 @@ void BatchDenoiser::append(const stream::Sample& sample, std::uint64_t bridge) {
 }
 
 void BatchDenoiser::finish() {
-  for (Stretch& stretch : stretches_) denoise(stretch);
-  for (Row& row : rows_) hand_on(row);
+  for (Stretch& stretch : stretches_) {
+    if (!denoise(stretch)) return;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (i % kLookUpEvery == 0 && !wanted_()) return;
+    hand_on(rows_[i]);
+  }
   rows_.clear();
 }
 
-void BatchDenoiser::denoise(Stretch& stretch) {
+bool BatchDenoiser::denoise(Stretch& stretch) {
+  auto whole = while_wanted(wanted_, [measured = stretch.measured, options = options_] {
+    Whole made;
+    made.denoised = denoise_whole(measured, options, made.reports);
+    return made;
+  });
+  if (!whole) return false;
+  stretch.denoised = std::move(whole->denoised);
+  if (stretch.size() < core::Denoiser::kMinSamples) return true;
   stream::NoiseReport report;
   report.sample_rate_hz = gate_.rate_hz();
-  stretch.denoised = denoise_whole(stretch.measured, options_, report.axis);
-  if (stretch.size() < core::Denoiser::kMinSamples) return;
+  report.axis = whole->reports;
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis)
     stretch.output_noise[axis] = report.axis[axis].output_noise;
   ++counts_.windows;
   summary_.add(report);
+  return true;
 }
 
 void BatchDenoiser::hand_on(Row& row) {

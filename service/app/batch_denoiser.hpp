@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,13 @@ class BatchDenoiser {
  public:
   /// @param options what is done with each stretch
   /// @param handler, summary have to outlive the denoiser
+  /// @param wanted asked many times a second while finish() works; false ends that
   BatchDenoiser(const settings::Settings& settings, const core::DenoiserOptions& options, RowHandler& handler,
-                DenoiseSummary& summary);
+                DenoiseSummary& summary, std::function<bool()> wanted);
 
   /// Takes the next row; its text is moved out.
   void push(files::RecordingRow& row);
-  /// The recording has ended: denoises it and hands on all rows.
+  /// The recording has ended: denoises it and hands on all rows, unless it is no longer wanted.
   void finish();
 
   [[nodiscard]] const stream::Counts& counts() const noexcept { return counts_; }
@@ -53,12 +55,14 @@ class BatchDenoiser {
   static constexpr std::size_t kRefused = ~std::size_t{0};
 
   void append(const stream::Sample& sample, std::uint64_t bridge);
-  void denoise(Stretch& stretch);
+  /// @return false if it is no longer wanted
+  [[nodiscard]] bool denoise(Stretch& stretch);
   void hand_on(Row& row);
 
   core::DenoiserOptions options_;
   RowHandler& handler_;
   DenoiseSummary& summary_;
+  std::function<bool()> wanted_;
   stream::SampleGate gate_;
   std::vector<Row> rows_;
   std::vector<Stretch> stretches_;

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/abandonable.hpp"
 #include "app/analysis_json.hpp"
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
@@ -66,8 +67,8 @@ std::vector<Target> targets_of(const DecomposeFlags& flags, const files::Record&
   return targets;
 }
 
-/// @return nothing if it was interrupted
-std::optional<files::Record> load(const DecomposeFlags& flags, Interrupt& interrupt) {
+/// @return null if it was interrupted
+std::shared_ptr<const files::Record> load(const DecomposeFlags& flags, Interrupt& interrupt) {
   ProgressBar progress("reading");
   files::RecordOptions options;
   options.reader.allow_missing_axes = flags.allow_missing_axes || !flags.axis.empty();
@@ -78,18 +79,21 @@ std::optional<files::Record> load(const DecomposeFlags& flags, Interrupt& interr
     return !interrupt.requested();
   };
   try {
-    return files::load_record(flags.input, options);
+    return std::make_shared<const files::Record>(files::load_record(flags.input, options));
   } catch (const files::Stopped&) {
-    return std::nullopt;
+    return nullptr;
   }
 }
 
-void write_columns(files::OutputFile& file, const files::Record& record, const core::RecordAnalysis& analysis,
-                   files::RateUnit unit) {
+/// @return false if it was interrupted
+bool write_columns(files::OutputFile& file, const files::Record& record, const core::RecordAnalysis& analysis,
+                   files::RateUnit unit, Interrupt& interrupt) {
+  constexpr std::size_t kLookUpEvery = 4096;
   std::string line = "time_s";
   for (std::size_t i = 1; i <= analysis.imfs.size(); ++i) line += ",imf_" + std::to_string(i);
   file.write(line + ",residue\n");
   for (std::size_t n = 0; n < record.size(); ++n) {
+    if (n % kLookUpEvery == 0 && interrupt.requested()) return false;
     line.clear();
     files::append_number(line, record.time_s[n]);
     for (const auto& imf : analysis.imfs) {
@@ -101,6 +105,7 @@ void write_columns(files::OutputFile& file, const files::Record& record, const c
     line += '\n';
     file.write(line);
   }
+  return true;
 }
 
 nlohmann::ordered_json axis_json(const Target& target, const core::RecordAnalysis& analysis) {
@@ -140,6 +145,11 @@ std::string summary_of(const DecomposeFlags& flags, const files::Record& record,
   return summary.dump(2) + "\n";
 }
 
+int interrupted() {
+  std::fprintf(stderr, "gyrod: interrupted, no file was written\n");
+  return kInterrupted;
+}
+
 void tell(const files::Record& record) {
   const auto note = [](std::uint64_t count, const char* what) {
     if (count > 0) std::fprintf(stderr, "  %llu %s\n", static_cast<unsigned long long>(count), what);
@@ -156,11 +166,9 @@ int decompose(const DecomposeFlags& flags, Interrupt& interrupt) {
     throw CLI::ValidationError("--output",
                                "is standard output, which holds one axis; expected --axis beside it");
   if (flags.summary == flags.output) throw CLI::ValidationError("--summary", "is the same file as --output");
-  const std::optional<files::Record> record = load(flags, interrupt);
-  if (!record) {
-    std::fprintf(stderr, "gyrod: interrupted\n");
-    return kInterrupted;
-  }
+  const std::shared_ptr<const files::Record> record = load(flags, interrupt);
+  if (!record) return interrupted();
+  if (flags.input == "-") interrupt.hold();
   const files::RateUnit unit = flags.unit.value_or(record->header.unit);
   core::DenoiserOptions options = core::whole_record_options();
   options.emd = flags.emd;
@@ -174,17 +182,16 @@ int decompose(const DecomposeFlags& flags, Interrupt& interrupt) {
 
   nlohmann::ordered_json axes = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (interrupt.requested()) {
-      std::fprintf(stderr, "gyrod: interrupted\n");
-      return kInterrupted;
-    }
-    const core::RecordAnalysis analysis = core::analyse_record(record->gyro_radps[targets[i].axis], options);
-    write_columns(*outputs[i], *record, analysis, unit);
-    axes[stream::kAxisNames[targets[i].axis]] = axis_json(targets[i], analysis);
+    const auto analysis = while_wanted([&interrupt] { return !interrupt.requested(); },
+                                       [record, axis = targets[i].axis, options] {
+                                         return core::analyse_record(record->gyro_radps[axis], options);
+                                       });
+    if (!analysis || !write_columns(*outputs[i], *record, *analysis, unit, interrupt)) return interrupted();
+    axes[stream::kAxisNames[targets[i].axis]] = axis_json(targets[i], *analysis);
     std::fprintf(stderr,
                  "%s: %zu IMFs of %zu samples, by the paper's rule %zu noise, %zu mixed, the rest signal\n",
-                 targets[i].path.c_str(), analysis.imfs.size(), record->size(), analysis.report.j,
-                 analysis.report.k - analysis.report.j);
+                 targets[i].path.c_str(), analysis->imfs.size(), record->size(), analysis->report.j,
+                 analysis->report.k - analysis->report.j);
   }
   for (const auto& output : outputs) output->close();
   if (summary_file) {

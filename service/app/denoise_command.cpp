@@ -80,7 +80,8 @@ std::optional<stream::Counts> denoise_all(files::RecordingReader& reader, RowHan
                                           DenoiseSummary& summary, const DenoisePlan& plan,
                                           Interrupt& interrupt) {
   if (plan.whole_record) {
-    BatchDenoiser denoiser(plan.settings, plan.options, rows, summary);
+    BatchDenoiser denoiser(plan.settings, plan.options, rows, summary,
+                           [&interrupt] { return !interrupt.requested(); });
     if (!denoise_rows(reader, denoiser, interrupt)) return std::nullopt;
     return denoiser.counts();
   }
@@ -117,7 +118,7 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   DenoiseSummary summary;
   const auto counts = denoise_all(reader, rows, summary, plan, interrupt);
   if (!counts) {
-    std::fprintf(stderr, "gyrod: interrupted\n");
+    std::fprintf(stderr, "gyrod: interrupted, no file was written\n");
     return kInterrupted;
   }
 
@@ -190,8 +191,8 @@ void add_method_options(CLI::App& command, DenoiseChoice& flags) {
       ->check(one_of({core::kSchemeNames.begin(), core::kSchemeNames.end()}));
   command
       .add_option("--screening", flags.screening,
-                  "Method paper with windowed, paper or significance [as configured, else windowed; with "
-                  "--batch paper]")
+                  "Method paper with windowed, paper or significance [as configured, else windowed, or paper "
+                  "with --batch]")
       ->type_name("RULE")
       ->check(one_of({"windowed", "paper", "significance"}));
   CLI::Option* batch = command.add_flag(

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "app/abandonable.hpp"
 #include "core/denoise/record_analysis.hpp"
 #include "files/rate_unit.hpp"
 #include "report/axis_report.hpp"
@@ -28,15 +29,26 @@ std::vector<double> truth_of(const files::Record& record, std::size_t axis) {
   return {};
 }
 
+/// One axis while it is worked on, by whoever still wants it.
+struct AxisInHand {
+  std::string name;
+  double sample_rate_hz = 0.0;
+  bool still = false;
+  std::vector<double> truth;
+  core::RecordAnalysis analysis;
+
+  [[nodiscard]] report::AxisInput input() const { return {name, sample_rate_hz, still, truth, analysis}; }
+};
+
 /// Work that several threads take from, axis by axis.
 class AxisWork {
  public:
-  AxisWork(const files::Record& record, bool still, const ReportWriter& writer)
+  AxisWork(const std::shared_ptr<const files::Record>& record, bool still, const ReportWriter& writer)
       : record_(record), still_(still), writer_(writer) {}
 
   void work() {
     for (std::size_t axis = next_++; axis < stream::kAxes && !stopped_; axis = next_++) {
-      if (record_.gyro_radps[axis].empty()) {
+      if (record_->gyro_radps[axis].empty()) {
         add(1.0);
       } else {
         done_[axis] = report_on(axis);
@@ -50,21 +62,24 @@ class AxisWork {
 
  private:
   [[nodiscard]] std::optional<ReportedAxis> report_on(std::size_t axis) {
-    core::RecordAnalysis analysis = core::analyse_record(record_.gyro_radps[axis]);
+    const auto wanted = [this] { return !stopped_; };
+    auto analysis = while_wanted(
+        wanted, [record = record_, axis] { return core::analyse_record(record->gyro_radps[axis]); });
+    if (!analysis) return std::nullopt;
     add(kShares[0]);
-    if (stopped_) return std::nullopt;
-    const std::vector<double> truth = truth_of(record_, axis);
-    const report::AxisInput input{stream::kAxisNames[axis], record_.sample_rate_hz, still_, truth, analysis};
-    report::Json sections = report::axis_report(input);
+    const auto in_hand =
+        std::make_shared<AxisInHand>(AxisInHand{stream::kAxisNames[axis], record_->sample_rate_hz, still_,
+                                                truth_of(*record_, axis), std::move(*analysis)});
+    auto sections = while_wanted(wanted, [in_hand] { return report::axis_report(in_hand->input()); });
+    if (!sections) return std::nullopt;
     add(kShares[1]);
-    if (stopped_) return std::nullopt;
-    writer_.write_series(input);
+    if (!writer_.write_series(in_hand->input(), wanted)) return std::nullopt;
     add(kShares[2]);
-    return ReportedAxis{std::move(sections), std::move(analysis.outputs)};
+    return ReportedAxis{std::move(*sections), std::move(in_hand->analysis.outputs)};
   }
   void add(double share) noexcept { fraction_.fetch_add(share); }
 
-  const files::Record& record_;
+  std::shared_ptr<const files::Record> record_;
   bool still_;
   const ReportWriter& writer_;
   ReportedAxes done_;
@@ -75,8 +90,8 @@ class AxisWork {
 
 }  // namespace
 
-std::optional<ReportedAxes> report_axes(const files::Record& record, bool still, const ReportWriter& writer,
-                                        const std::function<bool(double)>& look) {
+std::optional<ReportedAxes> report_axes(const std::shared_ptr<const files::Record>& record, bool still,
+                                        const ReportWriter& writer, const std::function<bool(double)>& look) {
   constexpr std::chrono::milliseconds kLookEvery{100};
   AxisWork axes(record, still, writer);
   std::array<std::future<void>, 2> threads;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,10 +25,10 @@ struct ReportedAxis {
 using ReportedAxes = std::array<std::optional<ReportedAxis>, stream::kAxes>;
 
 /// Decomposes and denoises the axes, makes their sections and writes their series; at most two at a time.
-/// @param look  called every tenth of a second with the part that is done; false ends the work after the steps in hand
+/// @param look  called every tenth of a second with the part that is done; false ends the work at once; an analysis in hand is left alone
 /// @return nothing if it was ended
-[[nodiscard]] std::optional<ReportedAxes> report_axes(const files::Record& record, bool still,
-                                                      const ReportWriter& writer,
+[[nodiscard]] std::optional<ReportedAxes> report_axes(const std::shared_ptr<const files::Record>& record,
+                                                      bool still, const ReportWriter& writer,
                                                       const std::function<bool(double)>& look);
 
 }  // namespace gyrod::app

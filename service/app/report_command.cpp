@@ -31,8 +31,8 @@ struct ReportFlags {
   files::RecordOptions record;
 };
 
-/// @return nothing if it was interrupted
-std::optional<files::Record> load(ReportFlags flags, Interrupt& interrupt) {
+/// @return null if it was interrupted
+std::shared_ptr<const files::Record> load(ReportFlags flags, Interrupt& interrupt) {
   // Reading from a terminal or a pipe can wait for ever.
   if (flags.input == "-") interrupt.let_through();
   ProgressBar bar("reading");
@@ -43,11 +43,11 @@ std::optional<files::Record> load(ReportFlags flags, Interrupt& interrupt) {
     return !interrupt.requested();
   };
   try {
-    files::Record record = files::load_record(flags.input, flags.record);
+    auto record = std::make_shared<const files::Record>(files::load_record(flags.input, flags.record));
     if (flags.input == "-") interrupt.hold();
     return record;
   } catch (const files::Stopped&) {
-    return std::nullopt;
+    return nullptr;
   }
 }
 
@@ -104,13 +104,13 @@ int make_report(const ReportFlags& flags, Interrupt& interrupt) {
   const bool still = record && is_still(*record);
   if (record) {
     ProgressBar bar("analysing");
-    axes = report_axes(*record, still, writer, [&](double fraction) {
+    axes = report_axes(record, still, writer, [&](double fraction) {
       bar.show(fraction, static_cast<std::uint64_t>(fraction * static_cast<double>(record->size())));
       return !interrupt.requested();
     });
   }
   if (!axes) {
-    std::fprintf(stderr, "gyrod: interrupted\n");
+    std::fprintf(stderr, "gyrod: interrupted, the report is not complete\n");
     return kInterrupted;
   }
   const ReportNavigation navigation = report_navigation(*record, *axes, still);

@@ -16,6 +16,9 @@ namespace {
 
 using report::Json;
 
+/// Ends a file that nobody wants any more.
+struct Unwanted {};
+
 /// Rows of one table of all axes, each with its axis in front. `find` gives an axis' rows, or null where it has none.
 template <typename Find>
 Json all_axes(const Json& axes, Find&& find) {
@@ -105,19 +108,27 @@ void ReportWriter::write(const std::string& name, const std::string& text) const
   file.close();
 }
 
-void ReportWriter::write_series(const report::AxisInput& input) const {
-  const auto into = [this](const std::string& name, auto&& write) {
+bool ReportWriter::write_series(const report::AxisInput& input, const std::function<bool()>& wanted) const {
+  const auto into = [&](const std::string& name, auto&& write) {
     files::OutputFile file(folder_ / name);
-    write([&file](std::string_view text) { file.write(text); });
+    write([&](std::string_view text) {
+      if (!wanted()) throw Unwanted{};
+      file.write(text);
+    });
     file.close();
   };
-  into("schemes_" + input.name + ".csv",
-       [&](const report::Sink& sink) { report::write_schemes(input, sink); });
-  if (input.analysis.imfs.empty()) return;
-  into("imfs_" + input.name + ".csv",
-       [&](const report::Sink& sink) { report::write_imfs(input, full_, sink); });
-  into("acf_" + input.name + ".csv",
-       [&](const report::Sink& sink) { report::write_acfs(input, full_, sink); });
+  try {
+    into("schemes_" + input.name + ".csv",
+         [&](const report::Sink& sink) { report::write_schemes(input, sink); });
+    if (input.analysis.imfs.empty()) return true;
+    into("imfs_" + input.name + ".csv",
+         [&](const report::Sink& sink) { report::write_imfs(input, full_, sink); });
+    into("acf_" + input.name + ".csv",
+         [&](const report::Sink& sink) { report::write_acfs(input, full_, sink); });
+    return true;
+  } catch (const Unwanted&) {
+    return false;
+  }
 }
 
 void ReportWriter::finish(Json& report, const std::optional<NavigationResult>& navigation) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,7 +21,8 @@ class ReportWriter {
   ReportWriter(std::filesystem::path folder, bool full);
 
   /// schemes_x.csv, imfs_x.csv, acf_x.csv. Any thread.
-  void write_series(const report::AxisInput& input) const;
+  /// @param wanted asked for every piece of text  @return false if it was no longer wanted; the file in hand is then not there
+  [[nodiscard]] bool write_series(const report::AxisInput& input, const std::function<bool()>& wanted) const;
 
   /// The tables, navigation.csv where there is one, report.json and index.html; adds "files" to the report.
   /// @throws files::FileError

@@ -1,5 +1,7 @@
 /// Schemes, whole records and decomposing at the command line.
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,7 @@
 
 #include "app/exit_code.hpp"
 #include "rig.hpp"
+#include "support/eventually.hpp"
 
 namespace gyrod::testing {
 namespace {
@@ -87,6 +90,18 @@ TEST_F(Schemes, ABatchSummaryTellsSchemeModelsAndImfs) {
   EXPECT_THAT(summary, HasSubstr("\"family\": \"AR\""));
   denoised({"--scheme", "emd", "--summary", path("s.json")});
   EXPECT_THAT(read_file("s.json"), HasSubstr("\"mode\": \"windowed\""));
+}
+
+TEST_F(Schemes, ABatchScreensAsConfiguredAndElseAsThePaper) {
+  const auto screening_of = [this](const std::string& settings) {
+    write_file("c.json", R"({"denoise": {"method": "paper")" + settings + "}}");
+    denoised({"--batch", "--config", path("c.json"), "--summary", path("s.json")});
+    return read_file("s.json");
+  };
+  EXPECT_THAT(screening_of(""), HasSubstr("\"screening\": \"paper\""));
+  EXPECT_THAT(screening_of(R"(, "screening": "windowed")"), HasSubstr("\"screening\": \"windowed\""))
+      << "its default, but given";
+  EXPECT_THAT(screening_of(R"(, "screening": "significance")"), HasSubstr("\"screening\": \"significance\""));
 }
 
 TEST_F(Schemes, ASummaryOfMethodJointNamesNone) {
@@ -177,6 +192,19 @@ TEST_F(Decompose, SaysWhatIsWrong) {
   EXPECT_EQ(run({"decompose", path("no_time.csv"), "-o", path("o.csv"), "--rate", "100"}).exit_code,
             ExitCode::kFileTrouble)
       << "a missing axis is an error unless it is allowed";
+}
+
+// Of one axis, whose analysis has no place to stop at: without the interrupt this takes seconds and ends well.
+TEST_F(Decompose, AnInterruptEndsTheAnalysisAndLeavesNoFile) {
+  ASSERT_EQ(run({"simulate", "--samples", "60000", "-o", path("long.csv")}).exit_code, ExitCode::kDone);
+  const auto process = start({"decompose", path("long.csv"), "-o", path("modes.csv"), "--axis", "x"});
+  const std::string part = path("modes.csv." + std::to_string(process->id()) + ".part");
+  ASSERT_TRUE(eventually([&part] { return std::filesystem::exists(part); })) << process->err();
+  process->signal(SIGINT);
+  EXPECT_EQ(process->wait(), ExitCode::kInterrupted);
+  EXPECT_THAT(process->err(), HasSubstr("interrupted"));
+  EXPECT_FALSE(std::filesystem::exists(part));
+  EXPECT_FALSE(std::filesystem::exists(path("modes.csv")));
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(BatchDenoiser, KeepsEveryRowInOrderAndStretchesApart) {
   Rows rows;
   app::DenoiseSummary summary;
   core::DenoiserOptions options = core::whole_record_options();
-  app::BatchDenoiser denoiser({}, options, rows, summary);
+  app::BatchDenoiser denoiser({}, options, rows, summary, [] { return true; });
   std::vector<std::string> expected;
   for (std::size_t n = 0; n < record.size(); ++n) {
     if ((n >= 200 && n < 205) || (n >= 2000 && n < 3000)) continue;
