@@ -25,10 +25,10 @@ stage_format() { our_sources | xargs clang-format --dry-run --Werror; }
 stage_tidy() {
   cmake --preset release >/dev/null
   cmake --build --preset release --target gyrod >/dev/null
-  # Options of GCC that clang 14 does not know.
+  # Options of GCC that clang does not know.
   mkdir -p build/tidy
-  sed -E 's/-fcx-limited-range|-Wno-restrict|-Wno-maybe-uninitialized//g' build/release/compile_commands.json >build/tidy/compile_commands.json
-  our_sources | grep '^service/.*\.cpp$' | xargs -P "$jobs" -n 4 clang-tidy --quiet -p build/tidy 2>/dev/null
+  sed -E 's/-Wno-restrict|-Wno-maybe-uninitialized//g' build/release/compile_commands.json >build/tidy/compile_commands.json
+  our_sources | grep '^service/.*\.cpp$' | xargs -P "$jobs" -n 1 clang-tidy-22 --quiet -p build/tidy 2>/dev/null
 }
 
 build_and_test() {

@@ -39,7 +39,8 @@ class Connection final : public httplib::Stream {
   const StopSignal& stop_;
   Deadline request_deadline_;
   Deadline answer_deadline_;
-  std::size_t bytes_left_;
+  std::size_t
+      bytes_left_;  // NOLINT(modernize-use-default-member-init): the limit is known to the source alone
 };
 
 }  // namespace gyrod::monitor

@@ -120,7 +120,7 @@ Guard delay_guard(const Contender& plain, const GuardCase& on, double limit) {
   constexpr std::size_t kFarthest = 64;
   const auto peak = correlation_peak(on.truth_dps, plain.estimate, on.range, kFarthest);
   if (!peak) return not_applicable(GuardKind::kDelay, limit, "its correlation with the truth has no peak");
-  Guard guard{GuardKind::kDelay, verdict(std::abs(*peak) <= limit), *peak, std::nullopt, limit, ""};
+  Guard guard{GuardKind::kDelay, verdict(std::abs(*peak) <= limit), peak, std::nullopt, limit, ""};
   if (plain.lag_samples == 0) {
     guard.verdict = Verdict::kNotApplicable;
     guard.reason = "answers at once: this is its measured delay";
