@@ -96,5 +96,12 @@ TEST_F(SettingsFile, AMissingNetworkFileIsAnErrorNow) {
                         "Cyclone DDS XML file"));
 }
 
+TEST_F(SettingsFile, GivesAKeyThatStandsInItBeItWithItsDefault) {
+  const fs::path file = write("c.json", R"({"denoise": {"screening": "windowed"}})");
+  EXPECT_TRUE(gives(file, "denoise.screening"));
+  EXPECT_FALSE(gives(file, "denoise.scheme"));
+  EXPECT_FALSE(gives(file, "bus.domain"));
+}
+
 }  // namespace
 }  // namespace gyrod::settings
