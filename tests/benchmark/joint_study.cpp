@@ -129,6 +129,7 @@ core::JointOptions options_of(const Arguments& arguments) {
   set("likelihood_memory", options.likelihood_memory);
   set("hand_over_samples", options.hand_over_samples);
   set("correction_rate", options.correction_rate);
+  set("correction_share", options.correction_share);
   return options;
 }
 

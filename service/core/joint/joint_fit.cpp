@@ -143,6 +143,7 @@ void JointFit::start_mode(std::span<const double> imf, const ImfFigures& figures
 
 void JointFit::design(JointModel& model) noexcept {
   model.fallbacks = 0;
+  model.noise_variance = unit_ * noise_variance(noise_);
   const BlockSet pruned = blocks_of(pruned_, 1.0);
   make(blocks_of(full_, 1.0), MemberKind::kFull, model);
   make(pruned, MemberKind::kPruned, model);

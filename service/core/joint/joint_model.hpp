@@ -23,7 +23,8 @@ inline constexpr std::size_t kMembers = 6;
 
 /// A plain value of about 20 KB: copied, never shared.
 struct JointModel {
-  double mean = 0.0;  ///< of the window, the members' zero, in the data's unit
+  double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
+  double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared
   std::array<MemberModel, kMembers> members{};
   /// What the windows so far say about the noise.
   NoiseTracker noise;

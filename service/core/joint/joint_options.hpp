@@ -52,9 +52,9 @@ struct JointOptions {
   /// Samples that a new model is run over before it answers. Range 0..kMaxHandOver.
   std::size_t hand_over_samples = 256;
   /// Rate of the slow correction, per sample: it takes what the models miss of slow motion. Range 0..1.
-  double correction_rate = 0.004;
-  /// What the members' own variance is multiplied by: they do not know that their models are estimates. Range 1..10.
-  double variance_factor = 1.3;
+  double correction_rate = 0.006;
+  /// The same where the estimate trusts the samples: at least this much of the estimate's variance over the noise's. Range 0..1.
+  double correction_share = 0.04;
 };
 
 /// Largest hand_over_samples.

@@ -14,6 +14,9 @@ constexpr std::array<double, 3> kStartRatios = {1e-4, 0.02, 1.0};
 /// Most that one sample says against a member, nu^2 / S: a million deviations.
 constexpr double kMostSurprise = 1e12;
 
+/// Largest rate of the slow correction that a large variance asks for: ten samples.
+constexpr double kMostCorrection = 0.1;
+
 /// Whether one of the members can answer.
 bool has_member(const JointModel& model) noexcept {
   return std::ranges::any_of(model.members, &MemberModel::usable);
@@ -60,8 +63,8 @@ void KalmanBank::reset() noexcept {
   fitted_ = false;
   unit_ = 0.0;
   members_ = {};
-  realtime_correction_ = 0.0;
-  denoised_correction_ = 0.0;
+  realtime_correction_ = {};
+  denoised_correction_ = {};
   normalised_innovation_ = 1.0;
 }
 
@@ -73,8 +76,6 @@ void KalmanBank::use(const JointModel& model) noexcept {
   if (!fitted_) {
     fitted_ = true;
     for (Member& member : members_) member.log_likelihood = 0.0;
-    realtime_correction_ = 0.0;
-    denoised_correction_ = 0.0;
   }
   const std::uint64_t begin = count_ - std::min<std::uint64_t>(count_, options_.hand_over_samples);
   for (std::size_t i = 0; i < kMembers; ++i) {
@@ -123,15 +124,12 @@ BankEstimates KalmanBank::step(double sample) noexcept {
     normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
   BankEstimates answer;
   answer.realtime = combine(0);
-  realtime_correction_ += options_.correction_rate * (sample - answer.realtime.rate - realtime_correction_);
-  answer.realtime.rate += realtime_correction_;
+  correct(sample, realtime_correction_, answer.realtime);
   if (!std::isfinite(answer.realtime.rate)) return start_anew(sample);
   answer.denoised = answer.realtime;
   if (count_ <= lag_) return answer;
   answer.denoised = combine(lag_);
-  const double then = sample_at(count_ - 1 - lag_);
-  denoised_correction_ += options_.correction_rate * (then - answer.denoised.rate - denoised_correction_);
-  answer.denoised.rate += denoised_correction_;
+  correct(sample_at(count_ - 1 - lag_), denoised_correction_, answer.denoised);
   return std::isfinite(answer.denoised.rate) ? answer : start_anew(sample);
 }
 
@@ -145,13 +143,23 @@ BankEstimates KalmanBank::start_anew(double sample) noexcept {
 BankEstimate KalmanBank::held(std::size_t age) const noexcept {
   assert(age <= lag_ && age < count_);
   BankEstimate estimate = combine(age);
-  estimate.rate += denoised_correction_;
+  estimate.rate += denoised_correction_.paid;
   return estimate;
+}
+
+void KalmanBank::correct(double sample, SlowCorrection& correction, BankEstimate& answer) const noexcept {
+  const double noise = model_.noise_variance * unit_;
+  const double share = noise > 0.0 ? options_.correction_share * answer.variance / noise : 0.0;
+  const double rate = std::max(options_.correction_rate, std::min(share, kMostCorrection));
+  correction.paid = rate * (correction.owed + sample - answer.rate);
+  answer.rate += correction.paid;
+  correction.owed += sample - answer.rate;
 }
 
 /// The local levels; the other members stay out.
 void KalmanBank::start() noexcept {
   model_ = {};
+  model_.noise_variance = 1.0;
   for (std::size_t i = 0; i < kStartRatios.size(); ++i) {
     model_.members[i] = local_level(kStartRatios[i]);
     for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
@@ -219,8 +227,7 @@ BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
     const double apart = estimates[i] - mixture.rate;
     mixture.variance += members_[i].weight * (error_variance_[i][lag] * unit_ + apart * apart);
   }
-  mixture.variance =
-      std::min(mixture.variance * options_.variance_factor, std::numeric_limits<double>::max());
+  mixture.variance = std::min(mixture.variance, std::numeric_limits<double>::max());
   return mixture;
 }
 

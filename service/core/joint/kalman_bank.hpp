@@ -27,8 +27,10 @@ struct BankEstimates {
 ///   x <- A x,   s = C' x,   nu = (z - mean) - H' x,   x <- x + K nu,   l <- memory l - (nu^2 / S + ln S) / 2,
 /// with weights w ~ exp(l + log prior). The estimate at lag L is
 ///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
-/// exact in the steady state; the bank's is sum w e_L, and a slow correction is added to it, which follows z[t-L] - e with
-/// correction_rate, so that what no member expects still arrives. Its variance is variance_factor sum w (P_L + (e_L - e)^2).
+/// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2). A slow correction makes of it the
+/// answer,
+///   out = e + a (owed + z[t-L] - e),   owed <- owed + z[t-L] - out,   a = max(correction_rate, correction_share P / noise variance),
+/// so that what no member expects still arrives, and the sum of the answers stays with that of the samples, also from one model to the next.
 /// Before the first model, three local levels (random walks seen in white noise) answer.
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -66,6 +68,12 @@ class KalmanBank {
     double weight = 0.0;
   };
 
+  struct SlowCorrection {
+    double owed = 0.0;  ///< sum of samples less answers
+    double paid = 0.0;  ///< of that with the last answer
+  };
+
+  void correct(double sample, SlowCorrection& correction, BankEstimate& answer) const noexcept;
   void start() noexcept;
   [[nodiscard]] BankEstimates start_anew(double sample) noexcept;
   void learn_start_variance(double sample) noexcept;
@@ -89,8 +97,8 @@ class KalmanBank {
   std::array<double, kMembers> log_prior_{};
   /// P_L of every member at lag 0 and at lag_.
   std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
-  double realtime_correction_ = 0.0;
-  double denoised_correction_ = 0.0;
+  SlowCorrection realtime_correction_;
+  SlowCorrection denoised_correction_;
   double normalised_innovation_ = 1.0;
 };
 

@@ -48,7 +48,7 @@ JointModel single(const BlockSet& set, double mean = 0.0) {
 JointOptions bare() {
   JointOptions options;
   options.correction_rate = 0.0;
-  options.variance_factor = 1.0;
+  options.correction_share = 0.0;
   return options;
 }
 
