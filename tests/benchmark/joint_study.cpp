@@ -2,9 +2,9 @@
 // RMSE in deg/s over samples 2400..9600, by lag. The tables of docs/method.md.
 //   GYROD_DATA=... joint_study [key=value ...]
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
-// its colour is unknown), source=1 (0: nothing is known), window=1024, hop=32, rate=120 (Hz: the drive resampled by lines),
-// start=0 (first sample of the noise), rivals=1 (0: leaves the Butterworth filters out, which take most of the time), axes=xyz; and the
-// members of core::JointOptions by name.
+// its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
+// rate=120 (Hz: the drive resampled by lines), start=0 (first sample of the noise), rivals=1 (0: leaves the Butterworth filters out,
+// which take most of the time), axes=xyz; and the members of core::JointOptions by name.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <numbers>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -20,6 +22,7 @@
 #include "core/evaluation/tuning.hpp"
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
+#include "core/noise/standstill_learner.hpp"
 #include "core/noise/still_noise.hpp"
 #include "support/drive_rows.hpp"
 
@@ -69,9 +72,21 @@ test::NoiseChoice noise_choice(const Arguments& arguments) {
   return noise;
 }
 
+/// What the learner makes of a minute at rest.
+core::NoiseModel learned_at_rest(const test::DriveRow& row) {
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  core::StandstillLearner learner(row.rate_hz);
+  const auto minute = static_cast<std::size_t>(60.0 * row.rate_hz);
+  for (const double dps : std::span(row.still_dps).first(minute)) {
+    learner.step({dps * kRadians, dps * kRadians, dps * kRadians});
+  }
+  return core::scaled(learner.models()[0], 1.0 / kRadians);
+}
+
 /// What is believed of the row's noise.
 core::NoiseModel believed(const test::DriveRow& row, const Arguments& arguments) {
   if (number(arguments, "source", 1) == 0.0) return {};
+  if (number(arguments, "learned", 0) != 0.0) return core::scaled(learned_at_rest(row), core::kNoiseMargin);
   const auto fitted = core::still_noise(row.still_dps);
   if (!fitted) throw std::runtime_error(row.name + ": no noise model");
   const bool white = number(arguments, "white", 0) != 0.0;
