@@ -36,6 +36,7 @@ core::JointPattern joints_of(const stream::EngineOptions& engine) {
 /// With the noise that the still samples show, if there are enough of them.
 core::Method two_speed_method(const std::string& name, const MethodContext& context) {
   JointRun run;
+  run.sample_rate_hz = context.rate_hz;
   run.window_samples = context.settings.engine.window_samples;
   run.hop_samples = context.settings.engine.hop_samples;
   run.lag_samples = context.lag_samples;

@@ -35,6 +35,7 @@ core::Contender joint_contender(const JointRun& run, std::span<const double> noi
   const std::size_t hop = run.hop_samples;
   const core::JointOptions options;
   core::JointFit fit(run.window_samples, options);
+  fit.set_sample_rate(run.sample_rate_hz);
   core::KalmanBank bank(options, run.lag_samples);
   const auto model = std::make_unique<core::JointModel>();
   core::WindowReport report;

@@ -11,6 +11,7 @@ namespace gyrod::app {
 
 /// How the estimator is run.
 struct JointRun {
+  double sample_rate_hz = 0.0;  ///< 0 where unknown
   std::size_t window_samples = 1024;
   std::size_t hop_samples = 32;
   std::size_t lag_samples = 16;  ///< at most core::kMaxLag

@@ -27,6 +27,7 @@ class JointMethod final : public ModelMethod {
   void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept override {
     const bool known = window.noise_source != NoiseSource::kNone;
     const bool limited = max_signal_hz_ > 0.0 && window.sample_rate_hz > 0.0;
+    fit_.set_sample_rate(window.sample_rate_hz);
     fit_.set_max_signal(limited ? max_signal_hz_ / window.sample_rate_hz : 1.0);
     fit_.fit(window.samples, known ? window.noise : core::NoiseModel{}, static_cast<JointState&>(model).joint,
              report);

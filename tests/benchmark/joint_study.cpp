@@ -3,8 +3,9 @@
 //   GYROD_DATA=... joint_study [key=value ...]
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
-// rate=120 (Hz: the drive resampled by lines), start=0 (first sample of the noise), rivals=1 (0: leaves the Butterworth filters out,
-// which take most of the time), axes=xyz; and the members of core::JointOptions by name.
+// rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
+// (first sample of the noise), rivals=1 (0: leaves the Butterworth filters out, which take most of the time), axes=xyz; and the
+// members of core::JointOptions by name.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,6 +133,7 @@ core::JointOptions options_of(const Arguments& arguments) {
   set("recency", options.recency);
   set("full_iterations", options.full_iterations);
   set("pruned_iterations", options.pruned_iterations);
+  set("shrinkage", options.shrinkage);
   set("bandwidth_cycles", options.bandwidth_cycles);
   set("prune_gain", options.prune_gain);
   set("pole_factor", options.pole_factor);
@@ -160,6 +162,7 @@ Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Argu
   const auto window = static_cast<std::size_t>(number(arguments, "window", 1024));
   const core::JointOptions options = options_of(arguments);
   core::JointFit fit(window, options);
+  fit.set_sample_rate(number(arguments, "told", 1) != 0.0 ? row.rate_hz : 0.0);
   std::vector<core::KalmanBank> banks;
   for (const std::size_t lag : kLags) banks.emplace_back(options, lag);
   const auto model = std::make_unique<core::JointModel>();

@@ -41,6 +41,13 @@ JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
     throw std::invalid_argument("IMF limit is " + std::to_string(options.emd.max_imfs) +
                                 ", expected at most " + std::to_string(kMaxImfs));
   }
+  set_sample_rate(0.0);
+}
+
+void JointFit::set_sample_rate(double sample_rate_hz) noexcept {
+  scale_ = JointScale(sample_rate_hz, max_samples_);
+  tapers_.set_recency(scale_.recency(options_.recency));
+  whittle_.set_shrinkage(scale_.shrinkage(options_.shrinkage));
 }
 
 void JointFit::fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,
@@ -66,6 +73,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   whittle_.prune(pruned_, options_.prune_gain);
   whittle_.iterate(pruned_, options_.pruned_iterations);
   model.mean = report.mean;
+  model.scale = scale_;
   design(model);
   report.modes = full_.size();
   report.output_noise = std::sqrt(model.member(MemberKind::kFull).error_variance(0));
@@ -147,7 +155,8 @@ void JointFit::design(JointModel& model) noexcept {
   const BlockSet pruned = blocks_of(pruned_, 1.0);
   make(blocks_of(full_, 1.0), MemberKind::kFull, model);
   make(pruned, MemberKind::kPruned, model);
-  const double drive = options_.agile_drive * model.member(MemberKind::kFull).innovation_variance / unit_;
+  const double drive =
+      scale_.agile_drive(options_.agile_drive) * model.member(MemberKind::kFull).innovation_variance / unit_;
   const double rho = options_.level_pole;
   const double d = options_.slope_pole;
   FilterBlock agile{.order = 1, .a = {rho}, .drive = drive, .signal = true};

@@ -33,6 +33,9 @@ class JointFit {
   /// expects, and not of what it answers. One half or more (as at the start): all are signal.
   void set_max_signal(double cycles) noexcept { max_signal_cycles_ = cycles; }
 
+  /// From here on windows are sampled at this rate, Hz; 0 (as at the start) while unknown. Options become what JointScale makes of them.
+  void set_sample_rate(double sample_rate_hz) noexcept;
+
   /// @param window uniformly sampled, finite, any unit
   /// @param noise  the channel's noise; where it is not usable, white noise of the quietest band's level is taken
   /// @param model  receives the members; untouched where the window does not vary
@@ -53,6 +56,7 @@ class JointFit {
   [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
 
   JointOptions options_;
+  JointScale scale_;
   std::size_t max_samples_;
   Emd emd_;
   RecencyTapers tapers_;

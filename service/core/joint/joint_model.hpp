@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/joint/joint_options.hpp"
 #include "core/joint/member_model.hpp"
 #include "core/joint/noise_tracker.hpp"
 
@@ -26,6 +27,8 @@ struct JointModel {
   double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
   double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared
   std::array<MemberModel, kMembers> members{};
+  /// What becomes of the options at the window's sample rate and length.
+  JointScale scale;
   /// What the windows so far say about the noise.
   NoiseTracker noise;
   /// Members that could not be made of the last window and keep what they had.

@@ -14,6 +14,11 @@ inline constexpr std::size_t kMaxModes = 10;
 /// Largest lag that a filter answers for, samples.
 inline constexpr std::size_t kMaxLag = 32;
 
+/// Sample rate and window that the numbers below were chosen at.
+inline constexpr double kDesignRateHz = 120.0;
+inline constexpr std::size_t kDesignWindowSamples = 1024;
+
+/// As of the design's rate and window; JointScale tells what becomes of them elsewhere.
 /// Source, where nothing else is said: tests/benchmark/joint_study.cpp and docs/method.md, which give what other values cost.
 struct JointOptions {
   EmdOptions emd;
@@ -30,6 +35,9 @@ struct JointOptions {
   /// Iterations of the EM fit: of the full set of modes, and of the pruned set before and after pruning. Range 1..100.
   int full_iterations = 20;
   int pruned_iterations = 5;
+  /// What every iteration takes off a mode's drive, the slow mode's excepted, in parts of it: a mode that is hardly more than noise fades,
+  /// one that stands out keeps nearly all. It is the prior density drive^-k with k = shrinkage N / 2. Range 0..0.5.
+  double shrinkage = 0.0075;
   /// Bandwidth below which a mode other than the slow one is not narrowed by the fit, cycles per sample. Range 0..0.1.
   double bandwidth_cycles = 0.001;
   /// A mode is kept by pruning where it buys at least this much of twice the log-likelihood. Range 0..1e4.
@@ -55,6 +63,36 @@ struct JointOptions {
   double correction_rate = 0.006;
   /// The same where the estimate trusts the samples: at least this much of the estimate's variance over the noise's. Range 0..1.
   double correction_share = 0.04;
+};
+
+/// Which options hold for a sample rate and a window. Those that mean a time keep it at rates above the design's, those that a short window
+/// is too poor for follow its length in seconds. At lower rates and longer windows they stay what they are.
+/// A plain value.
+class JointScale {
+ public:
+  JointScale() = default;
+  /// @param sample_rate_hz taken in quarters of an octave, so that an estimated rate does not make every model a little different; 0 or
+  /// less while unknown: the design's
+  JointScale(double sample_rate_hz, std::size_t window_samples) noexcept;
+
+  /// memory^(1 / faster): the same seconds.
+  [[nodiscard]] double likelihood_memory(double memory) const noexcept;
+  /// drive / faster^2: an agile member's level has the same bandwidth in Hz (that of a random walk in white noise, sqrt(drive) a sample).
+  [[nodiscard]] double agile_drive(double drive) const noexcept { return drive / (faster_ * faster_); }
+  /// recency / shorter: tapers fall off within the same seconds as the design's.
+  [[nodiscard]] double recency(double recency) const noexcept { return recency / shorter_; }
+  /// shrinkage * shorter, at most 0.1: the less a window tells, the more the prior does.
+  [[nodiscard]] double shrinkage(double shrinkage) const noexcept;
+
+  /// rate * fewer, at most 0.1: it makes up for the window's mean, and a shorter window's mean wanders faster.
+  [[nodiscard]] double correction_rate(double rate) const noexcept;
+
+  friend bool operator==(const JointScale&, const JointScale&) = default;
+
+ private:
+  double faster_ = 1.0;   ///< sample rate in parts of the design's, at least 1
+  double shorter_ = 1.0;  ///< the design's window in parts of this one, in seconds, at least 1
+  double fewer_ = 1.0;    ///< the same in samples
 };
 
 /// Largest hand_over_samples.

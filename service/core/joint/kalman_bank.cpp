@@ -71,6 +71,7 @@ void KalmanBank::reset() noexcept {
 void KalmanBank::use(const JointModel& model) noexcept {
   if (!model.usable()) return;
   model_ = model;
+  scale();
   unit_ = 1.0;
   started_ = true;
   if (!fitted_) {
@@ -93,6 +94,12 @@ void KalmanBank::use(const JointModel& model) noexcept {
   if (count_ > 0) weigh();
 }
 
+/// What the model's rate and window make of the options.
+void KalmanBank::scale() noexcept {
+  likelihood_memory_ = model_.scale.likelihood_memory(options_.likelihood_memory);
+  correction_rate_ = model_.scale.correction_rate(options_.correction_rate);
+}
+
 BankEstimates KalmanBank::step(double sample) noexcept {
   if (!started_) start();
   if (count_ == 0) model_.mean = fitted_ ? model_.mean : sample;
@@ -108,7 +115,7 @@ BankEstimates KalmanBank::step(double sample) noexcept {
     const double S = member.innovation_variance * unit_;
     const double normalised = S > 0.0 ? std::min(nu * nu / S, kMostSurprise) : 0.0;
     double& l = members_[i].log_likelihood;
-    l = options_.likelihood_memory * l - 0.5 * (normalised + (S > 0.0 ? std::log(S) : 0.0));
+    l = likelihood_memory_ * l - 0.5 * (normalised + (S > 0.0 ? std::log(S) : 0.0));
     if (!std::isfinite(l)) {
       model_.members[i].usable = false;
       l = 0.0;
@@ -150,7 +157,7 @@ BankEstimate KalmanBank::held(std::size_t age) const noexcept {
 void KalmanBank::correct(double sample, SlowCorrection& correction, BankEstimate& answer) const noexcept {
   const double noise = model_.noise_variance * unit_;
   const double share = noise > 0.0 ? options_.correction_share * answer.variance / noise : 0.0;
-  const double rate = std::max(options_.correction_rate, std::min(share, kMostCorrection));
+  const double rate = std::max(correction_rate_, std::min(share, kMostCorrection));
   correction.paid = rate * (correction.owed + sample - answer.rate);
   answer.rate += correction.paid;
   correction.owed += sample - answer.rate;
@@ -160,6 +167,7 @@ void KalmanBank::correct(double sample, SlowCorrection& correction, BankEstimate
 void KalmanBank::start() noexcept {
   model_ = {};
   model_.noise_variance = 1.0;
+  scale();
   for (std::size_t i = 0; i < kStartRatios.size(); ++i) {
     model_.members[i] = local_level(kStartRatios[i]);
     for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {

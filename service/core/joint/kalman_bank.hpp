@@ -74,6 +74,7 @@ class KalmanBank {
   };
 
   void correct(double sample, SlowCorrection& correction, BankEstimate& answer) const noexcept;
+  void scale() noexcept;
   void start() noexcept;
   [[nodiscard]] BankEstimates start_anew(double sample) noexcept;
   void learn_start_variance(double sample) noexcept;
@@ -89,7 +90,9 @@ class KalmanBank {
   std::size_t lag_;
   JointModel model_;
   bool started_ = false;
-  bool fitted_ = false;      ///< model_ came from a window
+  bool fitted_ = false;  ///< model_ came from a window
+  double likelihood_memory_ = 0.0;
+  double correction_rate_ = 0.0;
   double unit_ = 1.0;        ///< variances of the model in use are in parts of this
   std::uint64_t count_ = 0;  ///< samples taken
   std::vector<double> history_;

@@ -49,6 +49,12 @@ RecencyTapers::~RecencyTapers() = default;
 RecencyTapers::RecencyTapers(RecencyTapers&&) noexcept = default;
 RecencyTapers& RecencyTapers::operator=(RecencyTapers&&) noexcept = default;
 
+void RecencyTapers::set_recency(double recency) noexcept {
+  if (recency == recency_) return;
+  recency_ = recency;
+  samples_ = 0;
+}
+
 void RecencyTapers::spectrum(std::span<const double> x, std::span<double> power) noexcept {
   assert(power.size() == bins());
   prepare(x.size());

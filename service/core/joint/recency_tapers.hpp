@@ -21,6 +21,9 @@ class RecencyTapers {
   RecencyTapers(RecencyTapers&&) noexcept;
   RecencyTapers& operator=(RecencyTapers&&) noexcept;
 
+  /// From here on; see above. Another value than before costs the next call a table.
+  void set_recency(double recency) noexcept;
+
   /// Length of the transform, a power of two.
   [[nodiscard]] std::size_t transform_samples() const noexcept { return transform_samples_; }
   /// Frequencies 2 pi k / transform_samples(), k = 0 .. transform_samples() / 2.

@@ -125,6 +125,7 @@ void WhittleFit::maximise(SpectralMode& mode, std::span<const double> spectrum) 
   std::array<double, kLags> r{};
   kernel_->autocovariances(bins_, spectrum.data(), deviation_.data(), weights_.data(), r.data());
   mode = mode_of(r, mode.slow);
+  if (!mode.slow) mode.drive *= kept_;
 }
 
 /// What a mode adds to 2 ln L: 2 sum (ln (M - S) + I / (M - S) - ln M - I / M).

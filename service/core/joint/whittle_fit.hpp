@@ -32,6 +32,9 @@ class WhittleFit {
   /// The noise's spectrum at every bin, as observe() was told.
   [[nodiscard]] std::span<const double> noise() const noexcept { return noise_; }
 
+  /// What every iteration takes off a mode's drive from here on, the slow mode's excepted, in parts of it. 0 at the start.
+  void set_shrinkage(double shrinkage) noexcept { kept_ = 1.0 - shrinkage; }
+
   /// Improves the modes. A mode that loses all its power has drive 0 and stays so.
   void iterate(ModeSet& modes, int iterations) noexcept;
 
@@ -59,6 +62,7 @@ class WhittleFit {
   std::size_t bins_;
   NoiseModel noise_model_;
   std::array<double, kModeOrder + 1> narrowing_{};  ///< lag window of the modes that are not slow
+  double kept_ = 1.0;                               ///< of a mode's drive, by an iteration
   std::vector<double> cosines_;                     ///< kModeOrder + 1 rows: cos(l w)
   std::vector<double> sines_;
   std::vector<double> weights_;  ///< the same cosines as weights of a bin in the autocovariance at lag l

@@ -136,6 +136,37 @@ TEST(JointFit, AUsedObjectGivesTheBitsOfAFreshOne) {
   }
 }
 
+TEST(JointFit, WindowsOfOneRateLeaveNoTraceInThoseOfAnother) {
+  JointFit used(kWindow);
+  WindowReport report;
+  JointModel fast;
+  JointModel model;
+  used.set_sample_rate(400.0);
+  used.fit(window(), core::white_noise(0.09), fast, report);
+  used.set_sample_rate(core::kDesignRateHz);
+  used.fit(window(), core::white_noise(0.09), model, report);
+  const JointModel fresh = fitted(window(), core::white_noise(0.09));
+  for (std::size_t i = 0; i < core::kMembers; ++i) expect_same(model.members[i], fresh.members[i]);
+  EXPECT_EQ(model.scale, core::JointScale());
+  EXPECT_NE(fast.member(core::MemberKind::kFull).gain, model.member(core::MemberKind::kFull).gain);
+}
+
+// The agile blocks are driven by their part of the full member's innovation variance; 480 Hz is four times the design's rate.
+TEST(JointFit, AFasterSensorGetsSlowerAgileMembers) {
+  constexpr double kVariance = 0.09;
+  JointFit fit(kWindow);
+  WindowReport report;
+  JointModel model;
+  fit.set_sample_rate(480.0);
+  fit.fit(window(), core::white_noise(kVariance), model, report);
+  const double innovation = model.member(core::MemberKind::kFull).innovation_variance / kVariance;
+  const core::JointOptions options;
+  for (const core::MemberKind kind : {core::MemberKind::kLevel, core::MemberKind::kSlope}) {
+    EXPECT_NEAR(model.member(kind).blocks.all().back().drive, options.agile_drive * innovation / 16.0, 1e-12);
+  }
+  EXPECT_EQ(model.scale, core::JointScale(480.0, kWindow));
+}
+
 TEST(JointFit, ReportsTheNoiseAndTheMean) {
   JointFit fit(kWindow);
   WindowReport report;

@@ -191,6 +191,26 @@ TEST(KalmanBank, TrustsTheMemberThatPredictsBest) {
   EXPECT_LT(apart, 0.01 * size);
 }
 
+// The scale of a model acts on what the bank was given, and on nothing else.
+TEST(KalmanBank, TakesMemoryAndCorrectionAtTheModelsScale) {
+  const Signal z = simulated(blocks(), 500, 9);
+  JointModel model = single(blocks());
+  BlockSet lively = blocks();
+  lively.blocks[1].drive *= 10.0;
+  ASSERT_TRUE(MemberDesigner().design(lively, kNoise, model.member(MemberKind::kPruned)));
+  JointModel scaled = model;
+  scaled.scale = core::JointScale(480.0, 512);
+  JointOptions options;
+  KalmanBank bank(options, 16);
+  bank.use(scaled);
+  options.likelihood_memory = scaled.scale.likelihood_memory(options.likelihood_memory);
+  options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
+  KalmanBank expected(options, 16);
+  expected.use(model);
+  for (const double sample : z)
+    EXPECT_EQ(bank.step(sample).denoised.rate, expected.step(sample).denoised.rate);
+}
+
 TEST(KalmanBank, ItsInnovationsAreNormalWhereTheModelIsRight) {
   const BlockSet set = blocks();
   KalmanBank bank(bare(), 16);

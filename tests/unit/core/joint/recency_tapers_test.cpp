@@ -129,6 +129,19 @@ TEST(RecencyTapers, ShorterWindowsDoNotDependOnWhatCameBefore) {
   EXPECT_EQ(a, b);
 }
 
+TEST(RecencyTapers, AnotherRecencyIsAnotherObject) {
+  const Signal x = white_noise(1024, 6);
+  RecencyTapers changed(1024, 2, 3.0);
+  RecencyTapers fresh(1024, 2, 0.75);
+  Signal a(changed.bins());
+  Signal b(changed.bins());
+  changed.spectrum(x, a);
+  changed.set_recency(0.75);
+  changed.spectrum(x, a);
+  fresh.spectrum(x, b);
+  EXPECT_EQ(a, b);
+}
+
 TEST(RecencyTapers, AllocateNothingAfterConstruction) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
   const Signal x = white_noise(1024, 5);

@@ -101,6 +101,37 @@ TEST(WhittleFit, TheTruthIsAFixedPoint) {
   }
 }
 
+// Where the fit would stay, an iteration takes its share of the drive and no more; the slow mode pays nothing.
+TEST(WhittleFit, ShrinkageTakesItsShareOfAllButTheSlowMode) {
+  const ModeSet truth = set_of({oscillation(0.95, 0.5, 0.3), slow_mode(0.98, 0.1)});
+  WhittleFit fit(kTransform, 0.0);
+  fit.set_shrinkage(0.03);
+  fit.observe(expected_periodogram(truth), white_noise(1.0));
+  ModeSet modes = truth;
+  fit.iterate(modes, 1);
+  EXPECT_NEAR(modes.modes()[0].drive, 0.97 * 0.3, 1e-6);
+  EXPECT_NEAR(modes.modes()[1].drive, 0.1, 1e-6);
+}
+
+// Of a spectrum without chance, a mode 0.1 of the noise's height fades to less than half under a shrinkage of 0.03, one 100 times as high loses
+// less than 10 %: where I = M an iteration gives S <- 0.97 S, and what I - M then lacks is given back in parts of S / M.
+TEST(WhittleFit, ShrinkageFadesWhatIsHardlyMoreThanNoise) {
+  for (const double height : {0.1, 100.0}) {
+    const SpectralMode mode{.a = {0.5, 0.0, 0.0}, .drive = 0.25 * height};
+    WhittleFit fit(kTransform, 0.0);
+    fit.set_shrinkage(0.03);
+    fit.observe(expected_periodogram(set_of({mode})), white_noise(1.0));
+    ModeSet modes = set_of({mode});
+    fit.iterate(modes, 200);
+    const double left = variance_of(modes.modes()[0]) / variance_of(mode);
+    if (height < 1.0) {
+      EXPECT_LT(left, 0.5);
+    } else {
+      EXPECT_GT(left, 0.9);
+    }
+  }
+}
+
 // An AR(2) seen in white noise, from a start far off: its spectrum comes back. A periodogram of 513 bins tells the height of a peak
 // some ten bins wide to about a third; 0.2 in the logarithm is three deviations of the mean of 30.
 TEST(WhittleFit, RecoversAnOscillationInNoise) {

@@ -1,0 +1,37 @@
+#include "core/joint/joint_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gyrod::core {
+namespace {
+
+/// Largest shrinkage and correction rate; more was not measured.
+constexpr double kMost = 0.1;
+
+}  // namespace
+
+JointScale::JointScale(double sample_rate_hz, std::size_t window_samples) noexcept {
+  constexpr double kStepsPerOctave = 4.0;
+  double ratio = 1.0;
+  if (sample_rate_hz > 0.0 && std::isfinite(sample_rate_hz)) {
+    const double octaves = std::log2(sample_rate_hz / kDesignRateHz);
+    ratio = std::exp2(std::round(kStepsPerOctave * octaves) / kStepsPerOctave);
+  }
+  faster_ = std::max(ratio, 1.0);
+  const double window = static_cast<double>(kDesignWindowSamples) / static_cast<double>(window_samples);
+  shorter_ = std::max(ratio * window, 1.0);
+  fewer_ = std::max(window, 1.0);
+}
+
+double JointScale::likelihood_memory(double memory) const noexcept {
+  return faster_ > 1.0 ? std::pow(memory, 1.0 / faster_) : memory;
+}
+
+double JointScale::shrinkage(double shrinkage) const noexcept {
+  return std::min(shrinkage * shorter_, kMost);
+}
+
+double JointScale::correction_rate(double rate) const noexcept { return std::min(rate * fewer_, kMost); }
+
+}  // namespace gyrod::core

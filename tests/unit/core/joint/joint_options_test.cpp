@@ -1,0 +1,81 @@
+#include "core/joint/joint_options.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace gyrod::core {
+namespace {
+
+constexpr JointOptions kOptions;
+
+TEST(JointScale, LeavesAllAsItIsAtTheDesignAndWhereTheRateIsUnknown) {
+  EXPECT_EQ(JointScale(kDesignRateHz, kDesignWindowSamples), JointScale());
+  for (const double unknown :
+       {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(JointScale(unknown, kDesignWindowSamples), JointScale());
+  }
+  const JointScale none;
+  EXPECT_EQ(none.likelihood_memory(kOptions.likelihood_memory), kOptions.likelihood_memory);
+  EXPECT_EQ(none.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
+  EXPECT_EQ(none.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
+  EXPECT_EQ(none.recency(kOptions.recency), kOptions.recency);
+  EXPECT_EQ(none.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
+}
+
+TEST(JointScale, LeavesSlowSensorsAndLongWindowsAsTheyAre) {
+  EXPECT_EQ(JointScale(50.0, kDesignWindowSamples), JointScale());
+  EXPECT_EQ(JointScale(100.0, kDesignWindowSamples), JointScale());
+  EXPECT_EQ(JointScale(120.0, 2 * kDesignWindowSamples), JointScale());
+}
+
+// Quarters of an octave from 120 Hz on: 200 Hz is 120 * 2^(3/4) = 201.8 Hz.
+TEST(JointScale, ATrembleOfTheRateChangesNothing) {
+  EXPECT_EQ(JointScale(199.7, 1024), JointScale(200.4, 1024));
+  EXPECT_EQ(JointScale(119.2, 1024), JointScale(121.0, 1024));
+  EXPECT_NE(JointScale(200.0, 1024), JointScale(400.0, 1024));
+}
+
+// Four samples at 480 Hz last as long as one at 120 Hz. 1e-15: a power and its root.
+TEST(JointScale, MembersRememberForTheSameSeconds) {
+  const double memory = JointScale(480.0, 1024).likelihood_memory(0.97);
+  EXPECT_NEAR(std::pow(memory, 4.0), 0.97, 1e-15);
+}
+
+// A random walk of drive q seen in white noise of variance 1 is followed with the gain K = (sqrt(q^2 + 4 q) - q) / 2, an exponential average
+// of bandwidth K f / (2 pi) Hz, K = sqrt(q) (1 - sqrt(q) / 2 + ...): alike to the second term, which is 7 % at q = 0.02.
+TEST(JointScale, AnAgileLevelHasTheSameBandwidth) {
+  const auto bandwidth = [](double q, double rate_hz) {
+    return 0.5 * (std::sqrt(q * q + 4.0 * q) - q) * rate_hz;
+  };
+  const double q = kOptions.agile_drive;
+  const double fast = JointScale(480.0, 1024).agile_drive(q);
+  EXPECT_NEAR(bandwidth(fast, 480.0) / bandwidth(q, 120.0), 1.0, 0.07);
+}
+
+// recency / window seconds is what the tapers fall off with.
+TEST(JointScale, ShortWindowsLookBackForTheSameSeconds) {
+  const double design = 3.0 * kDesignRateHz / 1024.0;
+  EXPECT_NEAR(JointScale(480.0, 1024).recency(3.0) * 480.0 / 1024.0, design, 1e-15);
+  EXPECT_NEAR(JointScale(120.0, 512).recency(3.0) * 120.0 / 512.0, design, 1e-15);
+  EXPECT_NEAR(JointScale(480.0, 4096).recency(3.0), 3.0, 1e-15);
+  EXPECT_NEAR(JointScale(60.0, 512).recency(3.0), 3.0, 1e-15);
+}
+
+TEST(JointScale, ShortWindowsTrustThePriorMoreUpToALimit) {
+  EXPECT_NEAR(JointScale(120.0, 512).shrinkage(0.01), 0.02, 1e-15);
+  EXPECT_NEAR(JointScale(480.0, 1024).shrinkage(0.01), 0.04, 1e-15);
+  EXPECT_EQ(JointScale(8000.0, 64).shrinkage(0.01), 0.1);
+}
+
+// Half the samples, twice the rate, whatever the seconds.
+TEST(JointScale, TheCorrectionKeepsPaceWithTheWindow) {
+  EXPECT_NEAR(JointScale(120.0, 512).correction_rate(0.004), 0.008, 1e-15);
+  EXPECT_EQ(JointScale(480.0, 1024).correction_rate(0.004), 0.004);
+  EXPECT_EQ(JointScale(120.0, 2048).correction_rate(0.004), 0.004);
+  EXPECT_EQ(JointScale(120.0, 16).correction_rate(0.004), 0.1);
+}
+
+}  // namespace
+}  // namespace gyrod::core
