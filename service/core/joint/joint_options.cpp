@@ -32,6 +32,8 @@ double JointScale::shrinkage(double shrinkage) const noexcept {
   return std::min(shrinkage * shorter_, kMost);
 }
 
-double JointScale::correction_rate(double rate) const noexcept { return std::min(rate * fewer_, kMost); }
+double JointScale::correction_rate(double rate) const noexcept {
+  return std::min(rate * fewer_ / faster_, kMost);
+}
 
 }  // namespace gyrod::core

@@ -84,7 +84,7 @@ class JointScale {
   /// shrinkage * shorter, at most 0.1: the less a window tells, the more the prior does.
   [[nodiscard]] double shrinkage(double shrinkage) const noexcept;
 
-  /// rate * fewer, at most 0.1: it makes up for the window's mean, and a shorter window's mean wanders faster.
+  /// rate * fewer / faster, at most 0.1: the same seconds; and it makes up for the window's mean, which wanders faster in a shorter window.
   [[nodiscard]] double correction_rate(double rate) const noexcept;
 
   friend bool operator==(const JointScale&, const JointScale&) = default;

@@ -72,7 +72,7 @@ TEST(JointScale, ShortWindowsTrustThePriorMoreUpToALimit) {
 // Half the samples, twice the rate, whatever the seconds.
 TEST(JointScale, TheCorrectionKeepsPaceWithTheWindow) {
   EXPECT_NEAR(JointScale(120.0, 512).correction_rate(0.004), 0.008, 1e-15);
-  EXPECT_EQ(JointScale(480.0, 1024).correction_rate(0.004), 0.004);
+  EXPECT_EQ(JointScale(480.0, 1024).correction_rate(0.004), 0.001);
   EXPECT_EQ(JointScale(120.0, 2048).correction_rate(0.004), 0.004);
   EXPECT_EQ(JointScale(120.0, 16).correction_rate(0.004), 0.1);
 }
