@@ -24,6 +24,12 @@ void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.input.max_sensors", bus.input.max_sensors);
   visit("bus.output.reliability", bus.output.reliability);
   visit("bus.output.history_depth", bus.output.history_depth);
+  visit("bus.ros2.topics", bus.ros2.topics);
+  visit("bus.ros2.denoised_suffix", bus.ros2.denoised_suffix);
+  visit("bus.ros2.realtime_suffix", bus.ros2.realtime_suffix);
+  visit("bus.ros2.output_reliability", bus.ros2.output_reliability);
+  visit("bus.ros2.history_depth", bus.ros2.history_depth);
+  visit("bus.ros2.max_topics", bus.ros2.max_topics);
 }
 
 template <class Visit>

@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "ros2/names.hpp"
 #include "settings/document.hpp"
 #include "settings/enum_names.hpp"
 #include "settings/noise_calibration.hpp"
@@ -101,6 +103,15 @@ class CrossCheck {
     }
   }
 
+  void check_ros2() {
+    const Ros2Settings& ros2 = settings_.bus.ros2;
+    check_suffix("bus.ros2.denoised_suffix", ros2.denoised_suffix);
+    check_suffix("bus.ros2.realtime_suffix", ros2.realtime_suffix);
+    require(ros2.denoised_suffix != ros2.realtime_suffix, "bus.ros2.realtime_suffix", ros2.realtime_suffix,
+            "another one than bus.ros2.denoised_suffix", {"bus.ros2.denoised_suffix"});
+    for (std::size_t i = 0; i < ros2.topics.size(); ++i) check_ros2_topic(i);
+  }
+
   /// Reads the calibrations: a start must not find out later.
   void check_calibrations(const fs::path& directory) {
     const NoiseSettings& noise = settings_.noise;
@@ -143,12 +154,36 @@ class CrossCheck {
     return std::all_of(name.begin(), name.end(), allowed) && !(name.front() >= '0' && name.front() <= '9');
   }
 
+  void check_suffix(const std::string& key, const std::string& suffix) {
+    require(ros2::is_suffix(suffix), key, suffix,
+            "letters, digits, single '_' and '/' that can end a topic's name, and another end than _raw", {});
+  }
+
+  void check_ros2_topic(std::size_t index) {
+    const std::vector<std::string>& topics = settings_.bus.ros2.topics;
+    const ros2::OutputRule rule{settings_.bus.ros2.denoised_suffix, settings_.bus.ros2.realtime_suffix};
+    const std::string& topic = topics[index];
+    const std::string key = "bus.ros2.topics[" + std::to_string(index) + "]";
+    require(ros2::is_topic_or_pattern(topic), key, topic,
+            "rt/ and then names of letters, digits and single '_', with '/' between them and '*' for parts "
+            "of them",
+            {"bus.ros2.topics"});
+    require(!ros2::is_output(topic, rule), key, topic, "a topic that does not end as gyrod's own output does",
+            {"bus.ros2.topics", "bus.ros2.denoised_suffix", "bus.ros2.realtime_suffix"});
+    for (std::size_t earlier = 0; earlier < index; ++earlier) {
+      require(ros2::outputs_of(topic, rule).denoised != ros2::outputs_of(topics[earlier], rule).denoised, key,
+              topic, "a topic with outputs of its own, not those of \"" + topics[earlier] + "\"",
+              {"bus.ros2.topics"});
+    }
+  }
+
   /// @param others the keys besides `key` that the rule depends on
   void require(bool holds, const std::string& key, const json& value, const std::string& expected,
                std::initializer_list<std::string_view> others) {
     const auto unknown = [this](std::string_view name) { return concerned(issues_, name); };
     if (holds || unknown(key) || std::any_of(others.begin(), others.end(), unknown)) return;
-    const std::string origin = given_value(document_, key) != nullptr ? "" : " (the default)";
+    const bool given = given_value(document_, key.substr(0, key.find('['))) != nullptr;
+    const std::string origin = given ? "" : " (the default)";
     issues_.push_back({.key = key,
                        .value = shortened(value),
                        .expected = expected,
@@ -171,6 +206,7 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_silence();
   check.check_screening();
   check.check_topics();
+  check.check_ros2();
   check.check_network(directory);
   check.check_calibrations(directory);
   check.check_state_file(directory);

@@ -74,6 +74,9 @@ std::string expectation(const json& key_schema) {
   if (type == "number") return "a number" + range(key_schema);
   if (type == "boolean") return "true or false";
   if (type == "string") return text_length(key_schema);
+  if (type == "array")
+    return "a list of at most " + key_schema.at("maxItems").dump() + ", each " +
+           expectation(key_schema.at("items"));
   return "an object";
 }
 

@@ -31,10 +31,15 @@ const valijson::Schema& compiled_schema() {
   return compiled.rules;
 }
 
-/// {"<root>", "[denoise]", "[hop_samples]"} to {"denoise", "hop_samples"}.
+bool is_list(const Path& path) {
+  const json* key_schema = schema_at(path);
+  return key_schema != nullptr && key_schema->contains("items");
+}
+
+/// {"<root>", "[denoise]", "[hop_samples]"} to {"denoise", "hop_samples"}. What is wrong inside a list is wrong with the list.
 Path path_of(const std::vector<std::string>& context) {
   Path path;
-  for (std::size_t i = 1; i < context.size(); ++i)
+  for (std::size_t i = 1; i < context.size() && !is_list(path); ++i)
     path.push_back(context[i].substr(1, context[i].size() - 2));
   return path;
 }

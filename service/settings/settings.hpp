@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/denoise/scheme.hpp"
 #include "core/emd/emd.hpp"
@@ -48,6 +49,16 @@ struct OutputSettings {
   std::size_t history_depth = 1024;
 };
 
+struct Ros2Settings {
+  /// Topics or patterns of them (ros2/names.hpp).
+  std::vector<std::string> topics;
+  std::string denoised_suffix = "_denoised";
+  std::string realtime_suffix = "_realtime";
+  Reliability output_reliability = Reliability::kBestEffort;
+  std::size_t history_depth = 1024;
+  std::size_t max_topics = 64;
+};
+
 struct BusSettings {
   std::uint32_t domain = 0;
   /// "loopback", "default", or the path of a Cyclone DDS XML file (made absolute by loading).
@@ -56,6 +67,7 @@ struct BusSettings {
   TopicSettings topics;
   InputSettings input;
   OutputSettings output;
+  Ros2Settings ros2;
 };
 
 /// What the algorithm is told; window, hop, lag and sample rate of the group `denoise` are in

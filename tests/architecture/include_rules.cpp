@@ -31,16 +31,17 @@ const std::vector<Room>& rooms() {
        {"Eigen/", "unsupported/Eigen/", "immintrin.h", "emmintrin.h"}},
       {"core/evaluation", {}, {"Eigen/"}},
       {"stream", {"core/"}, {}},
-      {"bus", {"core/", "stream"}, {"dds/", "gyrod.h"}},
+      {"ros2", {}, {}},
+      {"bus", {"core/", "stream", "ros2"}, {"dds/", "gyrod.h", "sensor_msgs_imu.h"}},
       {"monitor",
        {"core/", "stream"},
        {"prometheus/", "httplib.h", "netdb.h", "netinet/", "poll.h", "sys/", "unistd.h"}},
-      {"settings", {"core/", "stream"}, {"nlohmann/", "valijson/"}},
+      {"settings", {"core/", "stream", "ros2"}, {"nlohmann/", "valijson/"}},
       {"files", {"core/", "stream"}, {"zlib.h", "fcntl.h", "sys/", "unistd.h"}},
       {"web", {}, {}},
       {"report", {"core/", "web"}, {"nlohmann/"}},
       {"app",
-       {"core/", "stream", "bus", "monitor", "settings", "files", "web", "report"},
+       {"core/", "stream", "ros2", "bus", "monitor", "settings", "files", "web", "report"},
        {"CLI/", "Eigen/", "nlohmann/", "spdlog/", "systemd/", "sys/", "unistd.h"}}};
   return table;
 }
