@@ -49,12 +49,19 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
   options.output_reliability = reliability(settings.output.reliability);
   options.output_depth = settings.output.history_depth;
   options.max_batch_samples = settings.max_batch_samples;
+  options.ros2.topics = settings.ros2.topics;
+  options.ros2.outputs = {.denoised_suffix = settings.ros2.denoised_suffix,
+                          .realtime_suffix = settings.ros2.realtime_suffix};
+  options.ros2.output_reliability = reliability(settings.ros2.output_reliability);
+  options.ros2.depth = settings.ros2.history_depth;
+  options.ros2.max_topics = settings.ros2.max_topics;
   return options;
 }
 
 bus::BusOptions live_bus_options(const settings::Settings& settings) {
   bus::BusOptions options = bus_options(settings.bus);
   options.realtime = is_model_method(settings.denoise);
+  options.ros2.max_held_messages = stream::most_held_samples(settings.engine) + 1;  // one is on its way in
   return options;
 }
 

@@ -13,6 +13,7 @@
 #include "app/status_log.hpp"
 #include "app/version.hpp"
 #include "bus/log.hpp"
+#include "ros2/names.hpp"
 #include "settings/enum_names.hpp"
 #include "settings/unused_keys.hpp"
 
@@ -62,6 +63,15 @@ class LogScope {
   LogScope& operator=(const LogScope&) = delete;
 };
 
+void announce_ros2(const settings::Settings& settings) {
+  const auto& ros2 = settings.bus.ros2;
+  for (const std::string& topic : ros2.topics) {
+    spdlog::info("ROS 2: {} {}, writes ...{}{}", ros2::is_pattern(topic) ? "looks for" : "reads", topic,
+                 ros2.denoised_suffix,
+                 is_model_method(settings.denoise) ? " and ..." + ros2.realtime_suffix : std::string{});
+  }
+}
+
 void announce(const settings::Settings& settings, const Service& service) {
   const auto& topics = settings.bus.topics;
   spdlog::info("gyrod {}: domain {}, network {}, {} workers", version(), settings.bus.domain,
@@ -71,6 +81,7 @@ void announce(const settings::Settings& settings, const Service& service) {
                topics.denoised_batch,
                realtime ? ", " + topics.realtime + ", " + topics.realtime_batch : std::string{},
                topics.noise);
+  announce_ros2(settings);
   spdlog::info("method {}; noise: {}, {} calibrations, {} sensors remembered",
                settings::name_of(settings.denoise.method), settings::name_of(settings.noise.source),
                service.noise().calibrations(), service.noise().remembered());

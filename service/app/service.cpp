@@ -33,11 +33,13 @@ void ReleaseToBus::in_parts(std::span<const stream::DenoisedSample> samples,
 
 void ReleaseToBus::on_samples(std::string_view sensor,
                               std::span<const stream::DenoisedSample> samples) noexcept {
+  if (imu_topics_.publish(sensor, samples)) return;
   in_parts(samples, [&](const auto& part) { publisher_.publish(sensor, part); });
 }
 
 void ReleaseToBus::on_realtime(std::string_view sensor,
                                std::span<const stream::DenoisedSample> samples) noexcept {
+  if (imu_topics_.publish_realtime(sensor, samples)) return;
   in_parts(samples, [&](const auto& part) { publisher_.publish_realtime(sensor, part); });
 }
 
@@ -57,21 +59,20 @@ void ReleaseToBus::let_readers_catch_up(std::size_t samples) noexcept {
   patience_ns_ -= std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count();
 }
 
-void FeedEngine::on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
-  engine_.push(sensor, samples);
-}
-void FeedEngine::on_end(std::string_view sensor) noexcept { engine_.end_of_stream(sensor); }
-
 Service::Service(const settings::Settings& settings)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
       noise_file_(settings.noise.state_file, [](const std::string& line) { spdlog::warn(line); }),
       noise_(settings.noise, noise_file_.load()),
       domain_(settings.bus.domain, settings.bus.network),
       publisher_(domain_, live_bus_options(settings)),
-      release_(publisher_, settings.bus.output.history_depth),
+      imu_topics_(domain_, live_bus_options(settings)),
+      release_(publisher_, imu_topics_, settings.bus.output.history_depth),
       engine_(live_engine_options(settings, noise_), method(settings), release_),
-      feed_(engine_),
-      subscriber_(domain_, bus_options(settings.bus), feed_) {
+      inlet_(engine_),
+      feed_(inlet_, imu_topics_),
+      imu_feed_(inlet_),
+      subscriber_(domain_, bus_options(settings.bus), feed_),
+      imu_subscriber_(imu_topics_, imu_feed_) {
   if (!settings.monitor.enabled) return;
   try {
     monitor_.emplace(monitor_options(settings.monitor), view());
@@ -83,6 +84,7 @@ Service::Service(const settings::Settings& settings)
 void Service::start() {
   if (monitor_) monitor_->start();
   subscriber_.start();
+  imu_subscriber_.start();
   ready_ = true;
 }
 
@@ -90,10 +92,12 @@ bool Service::stop() {
   ready_ = false;
   release_.wait_for_readers(kLastWord);
   engine_.hurry_after(stop_deadline_);  // holds for what the subscriber still hands over, too
+  imu_subscriber_.stop();
   subscriber_.stop();
   const bool denoised = engine_.stop(stop_deadline_);
   keep_noise();
   publisher_.wait_for_acknowledgements(kLastWord);
+  imu_topics_.wait_for_acknowledgements(kLastWord);
   if (monitor_) monitor_->stop();
   return denoised;
 }
@@ -115,10 +119,14 @@ monitor::View Service::view() {
 }
 
 monitor::BusSnapshot Service::bus_snapshot() const {
-  return {.matched_writers = subscriber_.matched_writers(),
-          .malformed_messages = subscriber_.malformed_messages(),
+  const bus::ImuTopicsSnapshot ros2 = imu_topics_.snapshot();
+  return {.matched_writers = subscriber_.matched_writers() + ros2.matched_writers,
+          .malformed_messages = subscriber_.malformed_messages() + ros2.malformed_messages,
           .refusals = subscriber_.refusals(),
-          .write_errors = publisher_.write_errors()};
+          .write_errors = publisher_.write_errors() + ros2.write_errors,
+          .ros2_topics = ros2.topics,
+          .ros2_refused_topics = ros2.refused_topics,
+          .ros2_dropped_messages = ros2.dropped_messages};
 }
 
 }  // namespace gyrod::app

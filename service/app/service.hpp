@@ -6,9 +6,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "app/engine_feed.hpp"
 #include "app/noise_sources.hpp"
 #include "app/noise_state_file.hpp"
 #include "bus/domain.hpp"
+#include "bus/imu_subscriber.hpp"
+#include "bus/imu_topics.hpp"
 #include "bus/publisher.hpp"
 #include "bus/subscriber.hpp"
 #include "monitor/monitor.hpp"
@@ -17,13 +20,14 @@
 
 namespace gyrod::app {
 
-/// What the engine releases goes to DDS. While the daemon runs, this waits for no reader. A stop releases in
+/// What the engine releases goes to DDS, where it came from: to gyrod's own topics, or, of ROS 2 sensors, to theirs. While the daemon runs, this waits for no reader. A stop releases in
 /// one go what took seconds to come in, more than the writers keep for readers that are behind; so it waits
 /// for them, within bounds.
 class ReleaseToBus final : public stream::Sink {
  public:
   /// @param depth messages that the writers keep of a sensor
-  ReleaseToBus(bus::Publisher& publisher, std::size_t depth) : publisher_(publisher), depth_(depth) {}
+  ReleaseToBus(bus::Publisher& publisher, bus::ImuTopics& imu_topics, std::size_t depth)
+      : publisher_(publisher), imu_topics_(imu_topics), depth_(depth) {}
 
   /// From now on waits for readers, in all no longer than that.
   void wait_for_readers(std::chrono::milliseconds patience) noexcept {
@@ -42,20 +46,10 @@ class ReleaseToBus final : public stream::Sink {
   void let_readers_catch_up(std::size_t samples) noexcept;
 
   bus::Publisher& publisher_;
+  bus::ImuTopics& imu_topics_;
   std::size_t depth_;
   std::atomic<std::int64_t> patience_ns_{0};
   std::atomic<std::size_t> unconfirmed_{0};  ///< samples since the readers last confirmed all
-};
-
-/// What comes from DDS goes to the engine.
-class FeedEngine final : public bus::SampleHandler {
- public:
-  explicit FeedEngine(stream::Engine& engine) : engine_(engine) {}
-  void on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept override;
-  void on_end(std::string_view sensor) noexcept override;
-
- private:
-  stream::Engine& engine_;
 };
 
 /// Owns everything that runs. One thread makes, starts and stops it; snapshot() may be called by any.
@@ -72,7 +66,9 @@ class Service {
   bool stop();
 
   [[nodiscard]] stream::EngineSnapshot snapshot() const { return engine_.snapshot(); }
-  [[nodiscard]] std::size_t matched_writers() const noexcept { return subscriber_.matched_writers(); }
+  [[nodiscard]] std::size_t matched_writers() const {
+    return subscriber_.matched_writers() + imu_topics_.snapshot().matched_writers;
+  }
   /// Writes the noise state file if anything has been learned since the last time.
   void keep_noise();
   [[nodiscard]] const NoiseSources& noise() const noexcept { return noise_; }
@@ -93,10 +89,14 @@ class Service {
   std::uint64_t noise_kept_ = 0;  ///< revision of noise_ that the file holds
   bus::Domain domain_;
   bus::Publisher publisher_;
+  bus::ImuTopics imu_topics_;
   ReleaseToBus release_;
   stream::Engine engine_;
-  FeedEngine feed_;
+  EngineInlet inlet_;
+  FeedFromBus feed_;
+  FeedFromRos2 imu_feed_;
   bus::Subscriber subscriber_;
+  bus::ImuSubscriber imu_subscriber_;
   std::optional<monitor::Monitor> monitor_;
 };
 

@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "ros2/names.hpp"
 
 namespace gyrod::bus {
 
@@ -30,6 +33,29 @@ struct TopicNames {
   std::string realtime_batch = "gyro/realtime_batch";  ///< out, see BusOptions::realtime: DenoisedBatch
 };
 
+/// ROS 2 topics of type sensor_msgs/msg/Imu.
+struct Ros2Options {
+  /// In: topics, or patterns of topics (ros2/names.hpp). A topic is opened at once, one that matches a pattern when a publisher
+  /// of it appears. The topic's name is the sensor's id.
+  std::vector<std::string> topics;
+
+  /// How the outputs of a topic are named. What is named so is never read.
+  ros2::OutputRule outputs;
+
+  /// Output: kBestEffort is what ROS 2 nodes do with sensor data.
+  Reliability output_reliability = Reliability::kBestEffort;
+
+  /// Messages of one topic that DDS holds for gyrod, and for a reliable reader that is late. 1..65536. The oldest gives way.
+  std::size_t depth = 1024;
+
+  /// Topics that are opened at the most. 1..1024. Bounds memory and threads' work under a flood of topics.
+  std::size_t max_topics = 64;
+
+  /// Messages of one topic that may wait for their denoised rates: what the engine holds of a sensor at the most, and the one on
+  /// its way in.
+  std::size_t max_held_messages = 2048;
+};
+
 /// Effect, unit, range and consequence of every option; the defaults lose nothing and bound everything.
 struct BusOptions {
   /// Which DDS domain to join. Programs in different domains do not see one another. 0..230.
@@ -43,6 +69,8 @@ struct BusOptions {
   std::string network = "loopback";
 
   TopicNames topics;
+
+  Ros2Options ros2;
 
   /// Input: kReliable matches reliable writers only; kBestEffort matches every writer, and losses show as
   /// gaps.

@@ -19,6 +19,11 @@ void set_reliability(Qos& qos, Reliability reliability, dds_duration_t max_block
   }
 }
 
+/// What ROS 2 (from its release Iron on) wants to hear of an Imu: the hash of the message's definition, REP-2011. Without it nodes
+/// connect, too, but those on Cyclone DDS log a warning.
+constexpr std::string_view kImuTypeHash =
+    "typehash=RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b;";
+
 }  // namespace
 
 Qos::Qos() : qos_(dds_create_qos()) {
@@ -73,6 +78,11 @@ Qos& Qos::no_autodispose() {
   return *this;
 }
 
+Qos& Qos::user_data(std::string_view text) {
+  dds_qset_userdata(qos_.get(), text.data(), text.size());
+  return *this;
+}
+
 Qos input_reader_qos(const BusOptions& options) {
   Qos qos;
   set_reliability(qos, options.input_reliability, 0);
@@ -107,6 +117,19 @@ Qos recorder_qos(Reliability reliability, const BusOptions& options) {
   Qos qos;
   set_reliability(qos, reliability, 0);
   qos.keep_all().limits(0, options.max_instances);
+  return qos;
+}
+
+Qos imu_reader_qos(const Ros2Options& options) {
+  Qos qos;
+  qos.best_effort().keep_last(options.depth).user_data(kImuTypeHash);
+  return qos;
+}
+
+Qos imu_writer_qos(const Ros2Options& options) {
+  Qos qos;
+  set_reliability(qos, options.output_reliability, kOutputMaxBlocking);
+  qos.keep_last(options.depth).no_autodispose().user_data(kImuTypeHash);
   return qos;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <dds/dds.h>
 
@@ -31,6 +32,9 @@ class Qos {
   /// stay visible.
   Qos& no_autodispose();
 
+  /// What readers and writers of a topic tell all others about themselves.
+  Qos& user_data(std::string_view text);
+
   [[nodiscard]] const dds_qos_t* get() const noexcept { return qos_.get(); }
   /// E.g. "reliable, keep last 1024".
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
@@ -57,5 +61,8 @@ class Qos {
 [[nodiscard]] Qos report_writer_qos(const BusOptions& options);
 /// The reader of `record`: keeps all, as a recording must not drop what was received.
 [[nodiscard]] Qos recorder_qos(Reliability reliability, const BusOptions& options);
+/// The reader and the writers of a ROS 2 topic, as ROS 2 nodes have them for sensor data.
+[[nodiscard]] Qos imu_reader_qos(const Ros2Options& options);
+[[nodiscard]] Qos imu_writer_qos(const Ros2Options& options);
 
 }  // namespace gyrod::bus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gyrod.h>
+#include <sensor_msgs_imu.h>
 
 namespace gyrod::bus {
 
@@ -28,6 +29,10 @@ struct TopicType<gyrod_DenoisedBatch> {
 template <>
 struct TopicType<gyrod_NoiseReport> {
   static constexpr const dds_topic_descriptor_t* kDescriptor = &gyrod_NoiseReport_desc;
+};
+template <>
+struct TopicType<sensor_msgs_msg_dds__Imu_> {
+  static constexpr const dds_topic_descriptor_t* kDescriptor = &sensor_msgs_msg_dds__Imu__desc;
 };
 
 }  // namespace gyrod::bus

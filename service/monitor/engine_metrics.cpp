@@ -94,6 +94,11 @@ void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Familie
       "Times a full input cache refused a message; reliable writers try again.", bus.refusals);
   add(families, kCounter, "gyrod_bus_write_errors_total", "DDS messages that could not be written.",
       bus.write_errors);
+  add(families, kGauge, "gyrod_ros2_topics", "ROS 2 topics that are read.", bus.ros2_topics);
+  add(families, kCounter, "gyrod_ros2_refused_topics_total",
+      "ROS 2 topics that match a pattern and were not opened.", bus.ros2_refused_topics);
+  add(families, kCounter, "gyrod_ros2_dropped_messages_total",
+      "ROS 2 messages lost for want of a place to wait for their denoised rates.", bus.ros2_dropped_messages);
 }
 
 void add_process_metrics(const std::string& version, double start_time_s, double uptime_s,

@@ -20,6 +20,9 @@ struct BusSnapshot {
       0;                           ///< taken and dropped whole: no usable sensor id, or too long a batch
   std::uint64_t refusals = 0;      ///< times a full cache had a message wait at its writer, or lost it
   std::uint64_t write_errors = 0;  ///< messages that DDS did not take from us
+  std::size_t ros2_topics = 0;     ///< ROS 2 topics that are open
+  std::uint64_t ros2_refused_topics = 0;    ///< that matched a pattern and were not opened
+  std::uint64_t ros2_dropped_messages = 0;  ///< ROS 2 messages without a place to wait for their rates
 };
 
 /// Whether work can be done now.

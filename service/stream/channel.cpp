@@ -14,18 +14,17 @@ HopSchedule::Options schedule_options(const EngineOptions& options) {
           .lag = static_cast<Position>(options.lag_samples)};
 }
 
-/// The window at hand, those that wait, and the stretch up to the next, widest hop.
-std::size_t ring_capacity(const EngineOptions& options) {
+}  // namespace
+
+std::size_t most_held_samples(const EngineOptions& options) noexcept {
   return options.window_samples + options.max_queued_windows * options.hop_samples +
          2 * options.max_hop_samples;
 }
 
-}  // namespace
-
 Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMethodFactory* models)
     : gate({options.sample_rate_hz, options.max_rate_radps, options.max_bridged_samples}),
       schedule(schedule_options(options)),
-      ring(ring_capacity(options)),
+      ring(most_held_samples(options)),
       sensor_(std::move(sensor)),
       jobs_(options.max_queued_windows) {
   if (models != nullptr) fast_loop.emplace(*models, options.lag_samples);

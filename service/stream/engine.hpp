@@ -75,6 +75,10 @@ struct EngineOptions {
   std::function<std::unique_ptr<NoiseLearner>(std::string_view sensor)> learner;
 };
 
+/// Accepted samples of one sensor that the engine has not released, at the most: the window at hand, those that wait, and the stretch
+/// up to the next, widest hop.
+[[nodiscard]] std::size_t most_held_samples(const EngineOptions& options) noexcept;
+
 /// Seconds of a steady clock; tests inject their own.
 using Clock = std::function<double()>;
 

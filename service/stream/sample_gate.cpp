@@ -4,13 +4,23 @@
 #include <cmath>
 
 namespace gyrod::stream {
+namespace {
+
+/// Samples of a sensor that does not count.
+bool unnumbered(const Sample& sample, std::uint64_t last_sequence) noexcept {
+  return sample.sequence == 0 && last_sequence == 0;
+}
+
+}  // namespace
 
 SampleGate::SampleGate(const GateOptions& options) noexcept
     : options_(options), period_(options.sample_rate_hz) {}
 
 Verdict SampleGate::judge(const Sample& sample) noexcept {
   if (const auto reason = unfit(sample)) {
-    if (open_ && sample.sequence > last_sequence_) ++refused_ahead_;
+    const bool newer = unnumbered(sample, last_sequence_) ? sample.stamp_ns > last_stamp_ns_
+                                                          : sample.sequence > last_sequence_;
+    if (open_ && newer) ++refused_ahead_;
     return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
   }
   if (!open_) {
@@ -45,15 +55,15 @@ std::optional<RejectReason> SampleGate::unfit(const Sample& sample) const noexce
 }
 
 std::optional<RejectReason> SampleGate::stale(const Sample& sample) const noexcept {
-  const bool unnumbered = sample.sequence == 0 && last_sequence_ == 0;
-  if (!unnumbered && sample.sequence <= last_sequence_) {
+  const bool without_number = unnumbered(sample, last_sequence_);
+  if (!without_number && sample.sequence <= last_sequence_) {
     const std::uint64_t age = last_sequence_ - sample.sequence;
     const bool seen = age < 64 && ((seen_ >> age) & 1U) != 0;
     return seen ? RejectReason::kDuplicate : RejectReason::kOutOfOrder;
   }
   if (sample.stamp_ns > last_stamp_ns_) return std::nullopt;
-  return unnumbered && sample.stamp_ns == last_stamp_ns_ ? RejectReason::kDuplicate
-                                                         : RejectReason::kTimeBackwards;
+  return without_number && sample.stamp_ns == last_stamp_ns_ ? RejectReason::kDuplicate
+                                                             : RejectReason::kTimeBackwards;
 }
 
 bool SampleGate::begins_anew(const Sample& sample) noexcept {
@@ -81,13 +91,15 @@ std::uint64_t SampleGate::missing_by_stamp(std::int64_t interval_ns) const noexc
 }
 
 Verdict SampleGate::advance(const Sample& sample) noexcept {
-  const std::uint64_t step = sample.sequence - last_sequence_;
+  // A sensor that does not count has advanced by this sample and those that were refused.
+  const std::uint64_t step =
+      unnumbered(sample, last_sequence_) ? 1 + refused_ahead_ : sample.sequence - last_sequence_;
   // Wrapping subtraction: stamps of opposite ends of the clock differ by more than an int64 holds.
   const auto interval_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_ns) -
                                                      static_cast<std::uint64_t>(last_stamp_ns_));
   const bool renumbered =
       step > kLargestLoss || interval_ns < 0 || periods_in(interval_ns) > static_cast<double>(kLargestLoss);
-  const std::uint64_t by_sequence = renumbered || step == 0 ? 0 : step - 1;
+  const std::uint64_t by_sequence = renumbered ? 0 : step - 1;
   const std::uint64_t absent = renumbered ? 0 : std::max(by_sequence, missing_by_stamp(interval_ns));
   const std::uint64_t missing = absent - std::min(absent, refused_ahead_);
   const bool paused = interval_ns > kLongestPauseNs && absent == 0 && !(period_.period_ns() > 0.0);

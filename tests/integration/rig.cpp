@@ -67,7 +67,7 @@ Rig::Result Rig::run_on_bus(std::vector<std::string> arguments) {
 std::unique_ptr<Process> Rig::start_daemon(const DaemonOptions& options) {
   std::ostringstream text;
   text << R"({"bus": {"domain": )" << domain_ << R"(, "input": {"max_messages": )" << options.max_messages
-       << "}},"
+       << R"(}, "ros2": )" << options.ros2 << "},"
        << R"("denoise": {"method": ")" << options.method << R"(", "window_samples": )"
        << options.window_samples << "},"
        << R"("noise": {"state_file": ")" << options.state_file << R"("},)"

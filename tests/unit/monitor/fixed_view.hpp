@@ -95,7 +95,13 @@ inline Shown busy_gyrod() {
   for (const double seconds : {20e-6, 0.0015, 0.0015, 0.3, 60.0}) shown.engine.window_time.add(seconds);
   shown.engine.added_latency.add(0.004);
   shown.channels = {busy_sensor("imu_front"), new_sensor("imu_rear")};
-  shown.bus = {.matched_writers = 2, .malformed_messages = 21, .refusals = 22, .write_errors = 23};
+  shown.bus = {.matched_writers = 2,
+               .malformed_messages = 21,
+               .refusals = 22,
+               .write_errors = 23,
+               .ros2_topics = 24,
+               .ros2_refused_topics = 25,
+               .ros2_dropped_messages = 26};
   return shown;
 }
 

@@ -82,6 +82,9 @@ TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
                                                   {"gyrod_bus_malformed_messages_total", 21},
                                                   {"gyrod_bus_refusals_total", 22},
                                                   {"gyrod_bus_write_errors_total", 23},
+                                                  {"gyrod_ros2_topics", 24},
+                                                  {"gyrod_ros2_refused_topics_total", 25},
+                                                  {"gyrod_ros2_dropped_messages_total", 26},
                                                   {"gyrod_uptime_seconds", 42.5},
                                                   {"process_start_time_seconds", 1.7e9}};
   for (const auto& [name, value] : expected) EXPECT_EQ(value_of(families, name), value) << name;

@@ -167,6 +167,22 @@ TEST_F(SampleGateTest, WorksByStampsWhereSamplesHaveNoNumbers) {
   expect_refused(sample, RejectReason::kDuplicate);
 }
 
+TEST_F(SampleGateTest, BridgesARefusedSampleWithoutANumberAsOneWithANumber) {
+  // Irregular stamps, by which alone nothing would show.
+  const auto at = [](std::int64_t stamp_ms, double x) {
+    return Sample{0, stamp_ms * 1'000'000, {x, 0.0, 0.0}};
+  };
+  for (const std::int64_t stamp_ms : {1, 2, 30, 31, 60})
+    ASSERT_EQ(gate_.judge(at(stamp_ms, 0.0)).kind, Kind::kAccept);
+  expect_refused(at(61, std::nan("")), RejectReason::kNotFinite);
+  expect_refused(at(60, std::nan("")),
+                 RejectReason::kNotFinite);  // came twice: stands for no sample of its own
+  const Verdict verdict = gate_.judge(at(90, 0.0));
+  EXPECT_EQ(verdict.kind, Kind::kAccept);
+  EXPECT_EQ(verdict.bridge, 1U);
+  EXPECT_EQ(verdict.missing, 0U);
+}
+
 TEST_F(SampleGateTest, NoticesAChangeOfTheSampleRate) {
   feed(200);
   EXPECT_NEAR(gate_.rate_hz(), 100.0, 1e-9);

@@ -1,0 +1,54 @@
+/// From the bus into the engine.
+#pragma once
+
+#include <mutex>
+
+#include "bus/imu_subscriber.hpp"
+#include "bus/imu_topics.hpp"
+#include "bus/subscriber.hpp"
+#include "stream/engine.hpp"
+
+namespace gyrod::app {
+
+/// The engine takes samples from one thread at a time; gyrod's own topics and those of ROS 2 have a thread each.
+class EngineInlet {
+ public:
+  explicit EngineInlet(stream::Engine& engine) : engine_(engine) {}
+  /// As Engine::push().
+  std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
+  void end(std::string_view sensor) noexcept;
+
+ private:
+  std::mutex
+      mutex_;  ///< taken before all others; held while push() waits for workers, which then all wait for
+  stream::Engine& engine_;
+};
+
+/// What comes from gyrod's own topics.
+class FeedFromBus final : public bus::SampleHandler {
+ public:
+  FeedFromBus(EngineInlet& inlet, const bus::ImuTopics& imu_topics)
+      : inlet_(inlet), imu_topics_(imu_topics) {}
+  /// An id that is the name of a ROS 2 topic is taken: such samples are refused and counted as of no id.
+  void on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept override;
+  void on_end(std::string_view sensor) noexcept override;
+
+ private:
+  EngineInlet& inlet_;
+  const bus::ImuTopics& imu_topics_;
+};
+
+/// What comes from ROS 2. Logs which topics were opened.
+class FeedFromRos2 final : public bus::ImuHandler {
+ public:
+  explicit FeedFromRos2(EngineInlet& inlet) : inlet_(inlet) {}
+  [[nodiscard]] bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override;
+  void on_end(std::string_view sensor) noexcept override;
+  void on_topic(std::string_view topic, const ros2::Outputs& outputs) noexcept override;
+  void on_refused_topic(std::string_view reason) noexcept override;
+
+ private:
+  EngineInlet& inlet_;
+};
+
+}  // namespace gyrod::app

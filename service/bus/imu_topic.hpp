@@ -1,0 +1,65 @@
+/// One ROS 2 topic of Imu messages, with its two outputs. Internal to bus/.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "bus/bus_options.hpp"
+#include "bus/domain.hpp"
+#include "bus/held_messages.hpp"
+#include "bus/topic_reader.hpp"
+#include "bus/topic_writer.hpp"
+
+namespace gyrod::bus {
+
+/// What happened to messages besides the usual.
+struct ImuCounts {
+  std::uint64_t malformed = 0;  ///< too long a frame id: not taken
+  std::uint64_t dropped =
+      0;  ///< no place to wait, or denoised samples did not go with those that wait: never seen, never silent
+  std::uint64_t write_errors = 0;  ///< DDS did not take a message
+};
+
+/// Reads one topic and writes its outputs. What gyrod does not denoise of a message waits here until its rates are known: the engine
+/// releases each sample that it accepted once and in order, so those that wait are the messages of exactly those samples.
+///
+/// take(), hold() and give_up_newest() belong to one thread; everything else is for any.
+class ImuTopic {
+ public:
+  /// @throws BusError naming topic, QoS and DDS's answer
+  ImuTopic(const Domain& domain, std::string name, const BusOptions& options);
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] const ros2::Outputs& outputs() const noexcept { return outputs_; }
+  [[nodiscard]] const TopicReader<Imu>& reader() const noexcept { return reader_; }
+
+  /// Keeps a copy of a message until its denoised sample is published. @return false if the message is not taken, counted
+  [[nodiscard]] bool hold(const Imu& message) noexcept;
+  /// The engine did not accept the newest.
+  void give_up_newest() noexcept;
+
+  /// Writes the messages that waited for these samples, with their rates. Does not wait for readers.
+  void publish(std::span<const stream::DenoisedSample> samples) noexcept;
+  /// Writes the newest message with rates estimated without look-ahead; it waits on. Comes while the engine is given that message.
+  void publish_realtime(std::span<const stream::DenoisedSample> samples) noexcept;
+
+  [[nodiscard]] bool wait_for_acknowledgements(dds_time_t deadline) const noexcept;
+  [[nodiscard]] ImuCounts counts() const noexcept;
+
+ private:
+  void write(const TopicWriter<Imu>& writer, const Imu& message, const stream::DenoisedSample& sample);
+
+  std::string name_;
+  ros2::Outputs outputs_;
+  TopicReader<Imu> reader_;
+  TopicWriter<Imu> denoised_;
+  std::optional<TopicWriter<Imu>> realtime_;
+  mutable std::mutex mutex_;  ///< of all below; held while a message is written, which keeps them in order
+  HeldMessages held_;
+  ImuCounts counts_;
+};
+
+}  // namespace gyrod::bus

@@ -1,0 +1,92 @@
+#include "bus/imu_topics.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "bus/imu_topics_impl.hpp"
+
+namespace gyrod::bus {
+
+ImuTopics::Impl::Impl(const Domain& domain, const BusOptions& options) : domain_(domain), options_(options) {
+  for (const std::string& topic : options_.ros2.topics) {
+    if (!ros2::is_pattern(topic)) open(topic);
+  }
+}
+
+ImuTopic* ImuTopics::Impl::find(std::string_view name) const {
+  const std::shared_lock lock(mutex_);
+  const auto found = topics_.find(name);
+  return found == topics_.end() ? nullptr : found->second.get();
+}
+
+bool ImuTopics::Impl::is_wanted(std::string_view name) const noexcept {
+  const auto matches = [name](const std::string& topic) { return ros2::matches(topic, name); };
+  return std::ranges::any_of(options_.ros2.topics, matches) && ros2::is_topic(name) &&
+         !ros2::is_output(name, options_.ros2.outputs);
+}
+
+ImuTopic& ImuTopics::Impl::open(const std::string& name) {
+  check_new(name);
+  auto topic = std::make_unique<ImuTopic>(domain_, name, options_);
+  const std::unique_lock lock(mutex_);
+  return *topics_.emplace(name, std::move(topic)).first->second;
+}
+
+void ImuTopics::Impl::check_new(const std::string& name) const {
+  const std::string attempt = "open ROS 2 topic '" + name + "': ";
+  if (!fits_wire(name)) {
+    throw BusError(attempt + "its name has " + std::to_string(name.size()) +
+                   " characters; a sensor's id has at most " + std::to_string(kMaxSensorIdLength));
+  }
+  const std::string output = ros2::outputs_of(name, options_.ros2.outputs).denoised;
+  const std::shared_lock lock(mutex_);
+  if (topics_.size() >= options_.ros2.max_topics)
+    throw BusError(attempt + std::to_string(topics_.size()) + " are open, no more are allowed");
+  for (const auto& [other, topic] : topics_) {
+    if (topic->outputs().denoised == output)
+      throw BusError(attempt + "its output '" + output + "' is that of '" + other + "'");
+  }
+}
+
+ImuTopics::ImuTopics(const Domain& domain, const BusOptions& options)
+    : impl_(std::make_unique<Impl>(domain, options)) {}
+ImuTopics::~ImuTopics() = default;
+
+bool ImuTopics::claims(std::string_view sensor) const noexcept { return impl_->is_wanted(sensor); }
+
+bool ImuTopics::publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
+  ImuTopic* topic = impl_->find(sensor);
+  if (topic != nullptr) topic->publish(samples);
+  return topic != nullptr;
+}
+
+bool ImuTopics::publish_realtime(std::string_view sensor,
+                                 std::span<const stream::DenoisedSample> samples) noexcept {
+  ImuTopic* topic = impl_->find(sensor);
+  if (topic != nullptr) topic->publish_realtime(samples);
+  return topic != nullptr;
+}
+
+bool ImuTopics::wait_for_acknowledgements(std::chrono::milliseconds timeout) noexcept {
+  const dds_time_t deadline = dds_time() + DDS_MSECS(timeout.count());
+  bool all = true;
+  impl_->for_each([&](const ImuTopic& topic) { all = topic.wait_for_acknowledgements(deadline) && all; });
+  return all;
+}
+
+ImuTopicsSnapshot ImuTopics::snapshot() const {
+  ImuTopicsSnapshot snapshot;
+  snapshot.refused_topics = impl_->refused();
+  impl_->for_each([&snapshot](const ImuTopic& topic) {
+    const ImuCounts counts = topic.counts();
+    ++snapshot.topics;
+    snapshot.matched_writers += topic.reader().matched().current_count;
+    snapshot.malformed_messages += counts.malformed;
+    snapshot.dropped_messages += counts.dropped;
+    snapshot.write_errors += counts.write_errors;
+  });
+  return snapshot;
+}
+
+}  // namespace gyrod::bus
