@@ -34,16 +34,22 @@ inline stream::Sample sample_of(const Imu& message) noexcept {
   return sample;
 }
 
+/// Whether the deviations of a sample can be relied on: a model is in use (before the first one they are guesses from a few samples),
+/// and each is known.
+inline bool has_deviations(const stream::DenoisedSample& sample) noexcept {
+  const auto is_known = [](double deviation) { return deviation > 0.0 && std::isfinite(deviation); };
+  return sample.model_epoch > 0 &&
+         std::all_of(sample.rate_std_radps.begin(), sample.rate_std_radps.end(), is_known);
+}
+
 /// Puts the sample's rates into the message, and their variances, (rad/s)^2, on the diagonal of the covariance: the squares of
-/// rate_std_radps, or all 0, which in ROS 2 says unknown, if one axis's is unknown. What passed through undenoised leaves the
-/// message as it is.
+/// rate_std_radps, or all 0, which in ROS 2 says unknown. What passed through undenoised leaves the message as it is.
 inline void set_rates(Imu& message, const stream::DenoisedSample& sample) noexcept {
   if ((sample.flags & static_cast<std::uint32_t>(stream::SampleFlag::kPassThrough)) != 0) return;
   message.angular_velocity = {sample.rate_radps[0], sample.rate_radps[1], sample.rate_radps[2]};
   std::fill(std::begin(message.angular_velocity_covariance), std::end(message.angular_velocity_covariance),
             0.0);
-  const auto is_known = [](double deviation) { return deviation > 0.0 && std::isfinite(deviation); };
-  if (!std::all_of(sample.rate_std_radps.begin(), sample.rate_std_radps.end(), is_known)) return;
+  if (!has_deviations(sample)) return;
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
     const double deviation = sample.rate_std_radps[axis];
     message.angular_velocity_covariance[axis * (stream::kAxes + 1)] = deviation * deviation;
