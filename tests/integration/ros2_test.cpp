@@ -25,27 +25,6 @@ namespace {
 constexpr std::size_t kFirstModel = 96;
 constexpr std::size_t kLag = 16;
 
-constexpr std::int64_t kFirstStampNs = 1'700'000'000'000'000'000;
-
-std::vector<ImuMessage> noisy_messages(std::uint64_t count) {
-  std::vector<ImuMessage> messages;
-  for (const stream::Sample& sample : noisy_samples(count))
-    messages.push_back(imu_message(sample.sequence, kFirstStampNs + sample.stamp_ns, sample.rate_radps));
-  return messages;
-}
-
-/// A recording of these messages as a node would write it: without a number.
-std::string recording_of(const std::vector<ImuMessage>& messages) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps\n";
-  for (const ImuMessage& message : messages) {
-    const auto rates = rates_of(message);
-    text << stamp_ns_of(message) << ',' << rates[0] << ',' << rates[1] << ',' << rates[2] << '\n';
-  }
-  return text.str();
-}
-
 class Ros2 : public Rig {
  protected:
   [[nodiscard]] dds_entity_t participant() const { return domain_.participant(); }
@@ -119,7 +98,7 @@ class Ros2 : public Rig {
 };
 
 TEST_F(Ros2, ATopicIsDenoisedAsItsRecordingAndNothingElseOfAMessageChanges) {
-  const std::vector<ImuMessage> sent = noisy_messages(2000);
+  const std::vector<ImuMessage> sent = noisy_imu_messages(2000);
   write_file("raw.csv", recording_of(sent));
   for (const std::string estimate : {"denoised", "realtime"}) {
     ASSERT_EQ(
@@ -149,7 +128,7 @@ TEST_F(Ros2, ATopicIsDenoisedAsItsRecordingAndNothingElseOfAMessageChanges) {
 }
 
 TEST_F(Ros2, MethodPaperReleasesWholeMessagesInBursts) {
-  const std::vector<ImuMessage> sent = noisy_messages(1500);
+  const std::vector<ImuMessage> sent = noisy_imu_messages(1500);
   write_file("raw.csv", recording_of(sent));
   ASSERT_EQ(
       run({"denoise", path("raw.csv"), "-o", path("paper.csv"), "--std", "--method", "paper"}).exit_code, 0);
@@ -178,7 +157,7 @@ TEST_F(Ros2, GapsShowByStampsAndWhatIsRefusedIsCountedAndNotPublished) {
   ImuSubscription realtime(participant(), "rt/imu/data_realtime");
   ASSERT_TRUE(denoised.wait_for_writer() && realtime.wait_for_writer());
 
-  std::vector<ImuMessage> sent = noisy_messages(1000);
+  std::vector<ImuMessage> sent = noisy_imu_messages(1000);
   sent.erase(sent.begin() + 600, sent.begin() + 700);  // longer than limits.max_bridged_samples
   sent.erase(sent.begin() + 400, sent.begin() + 405);
   sent[500].fields.angular_velocity.y = std::nan("");
@@ -213,7 +192,7 @@ TEST_F(Ros2, TopicsOfAPatternAreOpenedWhileRunningAndOutputsAreNeverRead) {
   // The pattern fits the outputs, too.
   const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/*/imu/*"], "max_topics": 2})"});
   EXPECT_EQ(count(*daemon, "gyrod_ros2_topics"), 0.0);
-  const std::vector<ImuMessage> sent = noisy_messages(200);
+  const std::vector<ImuMessage> sent = noisy_imu_messages(200);
   const auto drive = [&](const std::string& car) {
     ImuSubscription realtime(participant(), "rt/" + car + "/imu/data_realtime");
     const ImuPublisher publisher(participant(), "rt/" + car + "/imu/data_raw");

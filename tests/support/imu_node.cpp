@@ -1,15 +1,12 @@
 #include "support/imu_node.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include <array>
 #include <stdexcept>
 
 #include "support/eventually.hpp"
 
 namespace gyrod::testing {
 namespace {
-
-constexpr std::int64_t kNsPerS = 1'000'000'000;
 
 dds_entity_t checked(dds_entity_t entity, const std::string& what) {
   if (entity < 0) throw std::runtime_error(what + ": " + dds_strretcode(-entity));
@@ -29,53 +26,7 @@ dds_qos_t* sensor_qos(bool reliable) {
   return qos;
 }
 
-template <std::size_t n>
-void append_bits(const double (&values)[n], std::vector<std::uint64_t>& bits) {
-  std::transform(std::begin(values), std::end(values), std::back_inserter(bits),
-                 [](double value) { return std::bit_cast<std::uint64_t>(value); });
-}
-
 }  // namespace
-
-ImuMessage imu_message(std::uint64_t n, std::int64_t stamp_ns, const std::array<double, 3>& rate_radps) {
-  const auto value = static_cast<double>(n);
-  ImuMessage message;
-  auto& fields = message.fields;
-  fields.header.stamp = {static_cast<std::int32_t>(stamp_ns / kNsPerS),
-                         static_cast<std::uint32_t>(stamp_ns % kNsPerS)};
-  message.frame_id = "imu_link_" + std::to_string(n % 3);
-  fields.orientation = {value / 3.0, -value, -0.0, 1.0 / (value + 1.0)};
-  fields.angular_velocity = {rate_radps[0], rate_radps[1], rate_radps[2]};
-  fields.linear_acceleration = {0.1 * value, 9.81, -value / 7.0};
-  for (std::size_t i = 0; i < 9; ++i) {
-    fields.orientation_covariance[i] = i == 0 ? -1.0 : value + static_cast<double>(i);
-    fields.angular_velocity_covariance[i] = 1e-3 * static_cast<double>(i + 1);
-    fields.linear_acceleration_covariance[i] = value * static_cast<double>(i) / 11.0;
-  }
-  return message;
-}
-
-std::int64_t stamp_ns_of(const ImuMessage& message) {
-  return message.fields.header.stamp.sec * kNsPerS + message.fields.header.stamp.nanosec;
-}
-
-std::array<double, 3> rates_of(const ImuMessage& message) {
-  const auto& rate = message.fields.angular_velocity;
-  return {rate.x, rate.y, rate.z};
-}
-
-UntouchedBits untouched_bits(const ImuMessage& message) {
-  const auto& fields = message.fields;
-  UntouchedBits untouched{.frame_id = message.frame_id, .bits = {}};
-  untouched.bits = {static_cast<std::uint32_t>(fields.header.stamp.sec), fields.header.stamp.nanosec};
-  append_bits({fields.orientation.x, fields.orientation.y, fields.orientation.z, fields.orientation.w},
-              untouched.bits);
-  append_bits(fields.orientation_covariance, untouched.bits);
-  append_bits({fields.linear_acceleration.x, fields.linear_acceleration.y, fields.linear_acceleration.z},
-              untouched.bits);
-  append_bits(fields.linear_acceleration_covariance, untouched.bits);
-  return untouched;
-}
 
 ImuPublisher::ImuPublisher(dds_entity_t participant, const std::string& topic, bool reliable)
     : topic_(create_topic(participant, topic)) {

@@ -1,39 +1,15 @@
 /// What a ROS 2 node does with Imu messages, on plain Cyclone DDS.
 #pragma once
 
-#include <array>
-#include <bit>
-#include <chrono>
 #include <cstddef>
-#include <cstdint>
-#include <sensor_msgs_imu.h>
 #include <string>
 #include <vector>
 
 #include <dds/dds.h>
 
+#include "support/imu_message.hpp"
+
 namespace gyrod::testing {
-
-/// A message that owns its frame id.
-struct ImuMessage {
-  sensor_msgs_msg_dds__Imu_ fields{};  ///< but for header.frame_id, which means nothing
-  std::string frame_id;
-};
-
-/// Message number n, told apart from others by every bit of its fields, with these rates and stamp.
-[[nodiscard]] ImuMessage imu_message(std::uint64_t n, std::int64_t stamp_ns,
-                                     const std::array<double, 3>& rate_radps);
-
-[[nodiscard]] std::int64_t stamp_ns_of(const ImuMessage& message);
-[[nodiscard]] std::array<double, 3> rates_of(const ImuMessage& message);
-
-/// Everything that gyrod must not touch, bit for bit.
-struct UntouchedBits {
-  std::string frame_id;
-  std::vector<std::uint64_t> bits;
-  bool operator==(const UntouchedBits&) const = default;
-};
-[[nodiscard]] UntouchedBits untouched_bits(const ImuMessage& message);
 
 /// One publisher. It is best effort, as of sensor data, unless said otherwise.
 class ImuPublisher {
