@@ -16,7 +16,7 @@ class ImuHandler {
   /// The newest sample of a sensor; its message waits in ImuTopics. @param sensor the topic's name, valid during the call
   /// @return whether it was accepted: then it is published once, in order; else its message is given up
   [[nodiscard]] virtual bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept = 0;
-  /// The last publisher of the topic has gone. Comes after the last of its samples, once until samples come again.
+  /// The last publisher that sent a message has gone. Comes after the last of its samples, once until samples come again.
   virtual void on_end(std::string_view sensor) noexcept = 0;
   /// A publisher of this topic appeared, and it was opened because it matches a pattern.
   virtual void on_topic(std::string_view topic, const ros2::Outputs& outputs) noexcept = 0;

@@ -55,7 +55,7 @@ inline std::string udp_network_file() {
   const std::string place = "<Discovery>";
   xml.insert(xml.find(place) + place.size(),
              "<ExternalDomainId>" + std::to_string(kWireDomain) + "</ExternalDomainId>");
-  const std::string path = testing::TempDir() + "gyrod_bus_test_" + std::to_string(getpid()) + ".xml";
+  const std::string path = ::testing::TempDir() + "gyrod_bus_test_" + std::to_string(getpid()) + ".xml";
   std::ofstream(path) << xml;
   return path;
 }
@@ -67,7 +67,7 @@ enum class Route {
 };
 
 /// Runs every test on both routes.
-class BusTest : public testing::TestWithParam<Route> {
+class BusTest : public ::testing::TestWithParam<Route> {
  protected:
   [[nodiscard]] Domain reader_domain() const {
     return GetParam() == Route::kUdp ? Domain(kReaderDomain, network_) : in_process();
@@ -92,7 +92,7 @@ class BusTest : public testing::TestWithParam<Route> {
   std::string network_ = udp_network_file();
 };
 
-inline std::string route_name(const testing::TestParamInfo<Route>& info) {
+inline std::string route_name(const ::testing::TestParamInfo<Route>& info) {
   return info.param == Route::kUdp ? "OverUdp" : "InProcess";
 }
 

@@ -1,0 +1,215 @@
+/// ROS 2 topics between a publisher and a handler that stands for the engine.
+#include "bus/imu_topics.hpp"
+
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "bus/bus_error.hpp"
+#include "bus/entity.hpp"
+#include "bus/imu_subscriber.hpp"
+#include "bus/loan.hpp"
+#include "bus/qos.hpp"
+#include "bus/topic_writer.hpp"
+#include "support/eventually.hpp"
+#include "support/imu_node.hpp"
+#include "unit/bus/bus_test.hpp"
+
+namespace gyrod::bus::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::imu_message;
+using testing::ImuPublisher;
+using testing::ImuSubscription;
+using ::testing::IsEmpty;
+
+/// Accepts what is not negative on x.
+class Handler final : public ImuHandler {
+ public:
+  bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override {
+    collector_.add(sensor, {&sample, 1});
+    return sample.rate_radps[0] >= 0.0;
+  }
+  void on_end(std::string_view sensor) noexcept override { collector_.end(sensor); }
+  void on_topic(std::string_view topic, const ros2::Outputs& /*outputs*/) noexcept override {
+    const std::lock_guard lock(mutex_);
+    opened_.emplace_back(topic);
+  }
+  void on_refused_topic(std::string_view reason) noexcept override {
+    const std::lock_guard lock(mutex_);
+    refused_.emplace_back(reason);
+  }
+
+  [[nodiscard]] Collector<stream::Sample>& collector() { return collector_; }
+  [[nodiscard]] std::vector<std::string> opened() {
+    const std::lock_guard lock(mutex_);
+    return opened_;
+  }
+  [[nodiscard]] std::vector<std::string> refused() {
+    const std::lock_guard lock(mutex_);
+    return refused_;
+  }
+
+ private:
+  std::mutex mutex_;
+  Collector<stream::Sample> collector_;
+  std::vector<std::string> opened_;
+  std::vector<std::string> refused_;
+};
+
+class ImuTopicsTest : public BusTest {
+ protected:
+  ImuTopicsTest() { options_.realtime = true; }
+
+  [[nodiscard]] std::string topic(const std::string& name) const { return prefix_ + name; }
+
+  /// A publisher that the topics know of, too.
+  [[nodiscard]] std::unique_ptr<ImuPublisher> publisher(const ImuTopics& topics, const std::string& name) {
+    const std::size_t before = topics.snapshot().matched_writers;
+    auto made = std::make_unique<ImuPublisher>(writer_domain_.participant(), topic(name));
+    EXPECT_TRUE(made->wait_for_reader());
+    wait_until([&] { return topics.snapshot().matched_writers == before + 1; });
+    return made;
+  }
+
+  static stream::DenoisedSample denoised(std::int64_t stamp_ns) {
+    stream::DenoisedSample sample;
+    sample.stamp_ns = stamp_ns;
+    return sample;
+  }
+
+  std::string prefix_ = "rt/t" + std::to_string(getpid()) + "/";
+  Domain reader_domain_ = reader_domain();
+  Domain writer_domain_ = writer_domain();
+  Handler handler_;
+};
+
+TEST_P(ImuTopicsTest, AMessageThatIsNotAcceptedIsGivenUpAndTheOthersKeepTheirFields) {
+  options_.ros2.topics = {topic("imu")};
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  subscriber.start();
+  ImuSubscription output(writer_domain_.participant(), topic("imu_denoised"));
+  ASSERT_TRUE(output.wait_for_writer());
+  const auto writer = publisher(topics, "imu");
+  const std::vector<testing::ImuMessage> sent = {imu_message(1, 10, {1.0, 0.0, 0.0}),
+                                                 imu_message(2, 20, {-1.0, 0.0, 0.0}),
+                                                 imu_message(3, 20, {1.0, 0.0, 0.0})};
+  for (const auto& message : sent) writer->publish(message);
+  ASSERT_TRUE(handler_.collector().wait_for_samples(3));
+  subscriber.stop();
+  EXPECT_TRUE(topics.publish(topic("imu"), std::vector{denoised(10), denoised(20)}));
+  ASSERT_TRUE(output.wait_for(2));
+  EXPECT_EQ(untouched_bits(output.messages()[0]), untouched_bits(sent[0]));
+  EXPECT_EQ(untouched_bits(output.messages()[1]), untouched_bits(sent[2]))
+      << "not the refused one with its stamp";
+  EXPECT_FALSE(topics.publish(topic("other"), std::vector{denoised(10)}));
+  EXPECT_EQ(topics.snapshot().dropped_messages, 0U);
+}
+
+TEST_P(ImuTopicsTest, NoMoreMessagesWaitThanThereIsRoomForAndTheRestIsCounted) {
+  options_.ros2.topics = {topic("imu")};
+  options_.ros2.max_held_messages = 4;
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  subscriber.start();
+  const auto writer = publisher(topics, "imu");
+  testing::ImuMessage wordy = imu_message(0, 1, {1.0, 0.0, 0.0});
+  wordy.frame_id = std::string(256, 'f');
+  writer->publish(wordy);
+  wordy.frame_id.pop_back();  // 255 are allowed
+  wordy.fields.header.stamp.nanosec = 2;
+  writer->publish(wordy);
+  for (std::uint64_t n = 3; n < 10; ++n)
+    writer->publish(imu_message(n, static_cast<std::int64_t>(n), {1.0, 0.0, 0.0}));
+  wait_until([&] { return topics.snapshot().dropped_messages == 4; });
+  EXPECT_EQ(topics.snapshot().malformed_messages, 1U);
+  EXPECT_EQ(handler_.collector().samples(topic("imu")).size(), 4U);
+}
+
+TEST_P(ImuTopicsTest, AnEndComesAfterTheLastMessageAndOnce) {
+  options_.ros2.topics = {topic("imu")};
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  auto first = publisher(topics, "imu");
+  auto second = publisher(topics, "imu");
+  second->publish(imu_message(1, 0, {-1.0, 0.0, 0.0}));
+  first->publish_at_once(std::vector(599, imu_message(1, 0, {-1.0, 0.0, 0.0})));
+  first.reset();
+  subscriber.start();  // meets a full cache: more than one take
+  ASSERT_TRUE(handler_.collector().wait_for_samples(600));
+  EXPECT_THAT(handler_.collector().ends(), IsEmpty()) << "there is another publisher";
+  second.reset();
+  ASSERT_TRUE(handler_.collector().wait_for_ends(1));
+  EXPECT_THAT(handler_.collector().ends(), ElementsAre(::testing::Pair(topic("imu"), 600)));
+}
+
+TEST_P(ImuTopicsTest, APatternOpensWhatHasTheTypeAndARoomAndOutputsOfItsOwn) {
+  options_.ros2.topics = {topic("*")};
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  subscriber.start();
+  const TopicWriter<gyrod_GyroSample> other_type(writer_domain_.participant(), topic("other_type"),
+                                                 input_writer_qos());
+  const ImuPublisher output(writer_domain_.participant(), topic("imu_realtime"));
+  const ImuPublisher deeper(writer_domain_.participant(), topic("a/imu"));
+  const auto wanted = publisher(topics, "imu_raw");
+  EXPECT_THAT(handler_.opened(), ElementsAre(topic("imu_raw")));
+  const ImuPublisher same_outputs(writer_domain_.participant(), topic("imu"));
+  const ImuPublisher long_name(writer_domain_.participant(), topic(std::string(kMaxSensorIdLength, 'a')));
+  wait_until([&] { return handler_.refused().size() == 2; });
+  EXPECT_THAT(handler_.refused(), ::testing::UnorderedElementsAre(
+                                      HasSubstr("its output '" + topic("imu_denoised") + "' is that of"),
+                                      HasSubstr("a sensor's id has at most 64")));
+  EXPECT_EQ(topics.snapshot().refused_topics, 2U);
+  EXPECT_EQ(topics.snapshot().topics, 1U);
+  EXPECT_TRUE(topics.claims(topic("imu_raw")));
+  EXPECT_TRUE(topics.claims(topic("not_there_yet")));
+  EXPECT_FALSE(topics.claims(topic("imu_denoised")));
+  EXPECT_FALSE(topics.claims("imu"));
+}
+
+TEST_P(ImuTopicsTest, OutputsShowTheTypeAndTheHashOfRos2) {
+  options_.ros2.topics = {topic("imu")};
+  const ImuTopics topics(reader_domain_, options_);
+  const Entity publications(
+      dds_create_reader(writer_domain_.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
+      "look");
+  std::string type;
+  std::string user_data;
+  wait_until([&] {
+    const Loan<dds_builtintopic_endpoint_t> loan(publications.get());
+    for (std::size_t i = 0; i < loan.size(); ++i) {
+      if (!loan.info(i).valid_data || loan.message(i).topic_name != topic("imu_denoised")) continue;
+      type = loan.message(i).type_name;
+      void* text = nullptr;
+      std::size_t size = 0;
+      if (dds_qget_userdata(loan.message(i).qos, &text, &size)) user_data = {static_cast<char*>(text), size};
+      dds_free(text);
+    }
+    return !type.empty();
+  });
+  EXPECT_EQ(type, "sensor_msgs::msg::dds_::Imu_");
+  // The hash is that of sensor_msgs/msg/Imu in every release of ROS 2 that has hashes, as ros2 topic info -v shows it.
+  EXPECT_EQ(user_data, "typehash=RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b;");
+}
+
+TEST_P(ImuTopicsTest, MoreNamedTopicsThanAreAllowedAreAnErrorThatNamesTheFirst) {
+  options_.ros2.topics = {topic("imu")};
+  options_.ros2.max_topics = 1;
+  options_.ros2.topics.push_back(topic("imu2"));
+  try {
+    const ImuTopics topics(reader_domain_, options_);
+    FAIL() << "opened";
+  } catch (const BusError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("open ROS 2 topic '" + topic("imu2") + "': 1 are open, no more are allowed"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bus, ImuTopicsTest, ::testing::Values(Route::kInProcess, Route::kUdp), route_name);
+
+}  // namespace
+}  // namespace gyrod::bus::test
