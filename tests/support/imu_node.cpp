@@ -42,20 +42,11 @@ ImuPublisher::~ImuPublisher() {
 }
 
 void ImuPublisher::publish(const ImuMessage& message) const {
-  write(message);
-  dds_write_flush(writer_);
-}
-
-void ImuPublisher::publish_at_once(const std::vector<ImuMessage>& messages) const {
-  for (const ImuMessage& message : messages) write(message);
-  dds_write_flush(writer_);
-}
-
-void ImuPublisher::write(const ImuMessage& message) const {
   auto fields = message.fields;
   std::string frame_id = message.frame_id;
   fields.header.frame_id = frame_id.data();
   checked(dds_write(writer_, &fields), "write");
+  dds_write_flush(writer_);
 }
 
 bool ImuPublisher::wait_for_reader() const {

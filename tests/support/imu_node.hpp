@@ -21,14 +21,10 @@ class ImuPublisher {
   ImuPublisher& operator=(const ImuPublisher&) = delete;
 
   void publish(const ImuMessage& message) const;
-  /// The same for many, in as few packets as there can be: one by one they would be more than a socket holds.
-  void publish_at_once(const std::vector<ImuMessage>& messages) const;
   /// Waits until a subscription has matched.
   [[nodiscard]] bool wait_for_reader() const;
 
  private:
-  void write(const ImuMessage& message) const;
-
   dds_entity_t topic_;
   dds_entity_t writer_;
 };
