@@ -29,7 +29,7 @@ bool FeedFromRos2::on_sample(std::string_view sensor, const stream::Sample& samp
 void FeedFromRos2::on_end(std::string_view sensor) noexcept { inlet_.end(sensor); }
 
 void FeedFromRos2::on_topic(std::string_view topic, const ros2::Outputs& outputs) noexcept {
-  spdlog::info("ROS 2: reads {} for {}", topic, outputs.denoised);
+  spdlog::info("ROS 2: reads {}, writes {}", topic, outputs.denoised);
 }
 
 void FeedFromRos2::on_refused_topic(std::string_view reason) noexcept { spdlog::warn("cannot {}", reason); }

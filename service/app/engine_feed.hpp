@@ -38,7 +38,7 @@ class FeedFromBus final : public bus::SampleHandler {
   const bus::ImuTopics& imu_topics_;
 };
 
-/// What comes from ROS 2. Logs which topics were opened.
+/// What comes from ROS 2. Logs the topics that were opened and refused.
 class FeedFromRos2 final : public bus::ImuHandler {
  public:
   explicit FeedFromRos2(EngineInlet& inlet) : inlet_(inlet) {}

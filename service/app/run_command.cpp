@@ -64,11 +64,17 @@ class LogScope {
 };
 
 void announce_ros2(const settings::Settings& settings) {
-  const auto& ros2 = settings.bus.ros2;
+  const bus::Ros2Options ros2 = bus_options(settings.bus).ros2;
   for (const std::string& topic : ros2.topics) {
-    spdlog::info("ROS 2: {} {}, writes ...{}{}", ros2::is_pattern(topic) ? "looks for" : "reads", topic,
-                 ros2.denoised_suffix,
-                 is_model_method(settings.denoise) ? " and ..." + ros2.realtime_suffix : std::string{});
+    const ros2::Outputs outputs = ros2::outputs_of(topic, ros2.outputs);
+    spdlog::info("ROS 2: {} {}, writes {}{}", ros2::is_pattern(topic) ? "looks for" : "reads", topic,
+                 outputs.denoised,
+                 is_model_method(settings.denoise) ? " and " + outputs.realtime : std::string{});
+  }
+  if (!ros2.topics.empty() && settings.bus.network == "loopback") {
+    spdlog::warn(
+        "ROS 2: bus.network is \"loopback\", where nodes with ROS 2's own settings are not found; expected "
+        "\"default\"");
   }
 }
 
