@@ -8,7 +8,8 @@
 
 namespace gyrod::bus {
 
-ImuTopics::Impl::Impl(const Domain& domain, const BusOptions& options) : domain_(domain), options_(options) {
+ImuTopics::Impl::Impl(Domain domain, BusOptions options)
+    : domain_(std::move(domain)), options_(std::move(options)) {
   for (const std::string& topic : options_.ros2.topics) {
     if (!ros2::is_pattern(topic)) open(topic);
   }
@@ -43,10 +44,10 @@ void ImuTopics::Impl::check_new(const std::string& name) const {
   const std::shared_lock lock(mutex_);
   if (topics_.size() >= options_.ros2.max_topics)
     throw BusError(attempt + std::to_string(topics_.size()) + " are open, no more are allowed");
-  for (const auto& [other, topic] : topics_) {
-    if (topic->outputs().denoised == output)
-      throw BusError(attempt + "its output '" + output + "' is that of '" + other + "'");
-  }
+  const auto same = std::ranges::find_if(
+      topics_, [&output](const auto& entry) { return entry.second->outputs().denoised == output; });
+  if (same == topics_.end()) return;
+  throw BusError(attempt + "its output '" + output + "' is that of '" + same->first + "'");
 }
 
 ImuTopics::ImuTopics(const Domain& domain, const BusOptions& options)

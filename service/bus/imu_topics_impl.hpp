@@ -16,7 +16,7 @@ namespace gyrod::bus {
 
 class ImuTopics::Impl {
  public:
-  Impl(const Domain& domain, const BusOptions& options);
+  Impl(Domain domain, BusOptions options);
 
   [[nodiscard]] const Domain& domain() const noexcept { return domain_; }
   [[nodiscard]] const Ros2Options& options() const noexcept { return options_.ros2; }
