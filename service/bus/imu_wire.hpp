@@ -24,13 +24,18 @@ inline std::int64_t stamp_ns_of(const Imu& message) noexcept {
 inline bool is_not_measured(const double (&covariance)[9]) noexcept { return covariance[0] == -1.0; }
 
 /// The message as the engine sees it. ROS 2 counts nothing, so the sequence number stays 0: the engine then goes by stamps. A
-/// message that says it has no angular velocity has NaN, and is refused like one that holds NaN.
+/// message that says it has no angular velocity has NaN, and is refused like one that holds NaN. Its linear acceleration is what the
+/// accelerometer measured, gravity included: the specific force; a message can say that it has none.
 inline stream::Sample sample_of(const Imu& message) noexcept {
   stream::Sample sample;
   sample.stamp_ns = stamp_ns_of(message);
   sample.rate_radps = {message.angular_velocity.x, message.angular_velocity.y, message.angular_velocity.z};
   if (is_not_measured(message.angular_velocity_covariance))
     sample.rate_radps.fill(std::numeric_limits<double>::quiet_NaN());
+  if (!is_not_measured(message.linear_acceleration_covariance)) {
+    const auto& force = message.linear_acceleration;
+    sample.specific_force_mps2 = {force.x, force.y, force.z};
+  }
   return sample;
 }
 

@@ -26,7 +26,8 @@ class FastDds : public Rig {
  protected:
   [[nodiscard]] std::vector<std::vector<double>> offline_rates(const std::string& estimate) {
     const std::string out = path(estimate + ".csv");
-    EXPECT_EQ(run({"denoise", path("raw.csv"), "-o", out, "--estimate", estimate}).exit_code, 0);
+    EXPECT_EQ(
+        run({"denoise", path("raw.csv"), "-o", out, "--estimate", estimate, "--accelerometer"}).exit_code, 0);
     std::vector<std::vector<double>> rates;
     for (const std::string& row : columns_of(out, {"gyro_x_radps", "gyro_y_radps", "gyro_z_radps"}))
       rates.push_back(numbers_of(row));

@@ -101,10 +101,10 @@ TEST_F(Ros2, ATopicIsDenoisedAsItsRecordingAndNothingElseOfAMessageChanges) {
   const std::vector<ImuMessage> sent = noisy_imu_messages(2000);
   write_file("raw.csv", recording_of(sent));
   for (const std::string estimate : {"denoised", "realtime"}) {
-    ASSERT_EQ(
-        run({"denoise", path("raw.csv"), "-o", path(estimate + ".csv"), "--std", "--estimate", estimate})
-            .exit_code,
-        0);
+    ASSERT_EQ(run({"denoise", path("raw.csv"), "-o", path(estimate + ".csv"), "--std", "--accelerometer",
+                   "--estimate", estimate})
+                  .exit_code,
+              0);
   }
   const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/car/imu/data_raw"]})"});
   ImuSubscription denoised(participant(), "rt/car/imu/data_denoised");
@@ -130,8 +130,10 @@ TEST_F(Ros2, ATopicIsDenoisedAsItsRecordingAndNothingElseOfAMessageChanges) {
 TEST_F(Ros2, MethodPaperReleasesWholeMessagesInBursts) {
   const std::vector<ImuMessage> sent = noisy_imu_messages(1500);
   write_file("raw.csv", recording_of(sent));
-  ASSERT_EQ(
-      run({"denoise", path("raw.csv"), "-o", path("paper.csv"), "--std", "--method", "paper"}).exit_code, 0);
+  ASSERT_EQ(run({"denoise", path("raw.csv"), "-o", path("paper.csv"), "--std", "--accelerometer", "--method",
+                 "paper"})
+                .exit_code,
+            0);
   const auto daemon = start_daemon({.method = "paper", .ros2 = R"({"topics": ["rt/imu"]})"});
   ImuSubscription denoised(participant(), "rt/imu_denoised");
   ASSERT_TRUE(denoised.wait_for_writer());

@@ -58,10 +58,12 @@ std::vector<ImuMessage> noisy_imu_messages(std::uint64_t count) {
 std::string recording_of(const std::vector<ImuMessage>& messages) {
   std::ostringstream text;
   text.precision(17);
-  text << "stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps\n";
+  text << "stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps,accel_x_mps2,accel_y_mps2,accel_z_mps2\n";
   for (const ImuMessage& message : messages) {
     const auto rates = rates_of(message);
-    text << stamp_ns_of(message) << ',' << rates[0] << ',' << rates[1] << ',' << rates[2] << '\n';
+    text << stamp_ns_of(message) << ',' << rates[0] << ',' << rates[1] << ',' << rates[2];
+    const auto& force = message.fields.linear_acceleration;
+    text << ',' << force.x << ',' << force.y << ',' << force.z << '\n';
   }
   return text.str();
 }

@@ -24,7 +24,7 @@ struct ImuMessage {
 
 /// `count` messages of a 100 Hz sensor with the rates of noisy_samples(), from November 2023 on.
 [[nodiscard]] std::vector<ImuMessage> noisy_imu_messages(std::uint64_t count);
-/// A recording of these messages as a ROS 2 node would write it: stamps and rates, no number.
+/// A recording of these messages as a ROS 2 node would write it: stamps, rates and accelerations, no number.
 [[nodiscard]] std::string recording_of(const std::vector<ImuMessage>& messages);
 
 /// Everything that gyrod must not touch, bit for bit.

@@ -37,6 +37,15 @@ TEST(ImuWire, ASampleHasTheStampAndTheRatesAndNoNumber) {
       << "2^31 - 1 s and 2^32 - 1 ns more, no overflow";
 }
 
+TEST(ImuWire, LinearAccelerationIsTheSpecificForceUnlessTheMessageSaysThereIsNone) {
+  Imu message = imu_message(70, 0, {}).fields;
+  const auto force = sample_of(message).specific_force_mps2;
+  ASSERT_TRUE(force.has_value());
+  EXPECT_THAT(*force, ElementsAre(7.0, 9.81, -10.0)) << "as imu_message() makes it";
+  message.linear_acceleration_covariance[0] = -1.0;
+  EXPECT_FALSE(sample_of(message).specific_force_mps2.has_value());
+}
+
 TEST(ImuWire, ACovarianceThatBeginsWithMinusOneSaysThereAreNoRates) {
   Imu message = imu_message(1, 0, {0.1, 0.2, 0.3}).fields;
   ASSERT_EQ(message.orientation_covariance[0], -1.0) << "of another quantity: means nothing here";
