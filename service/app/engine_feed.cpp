@@ -14,6 +14,11 @@ void EngineInlet::end(std::string_view sensor) noexcept {
   engine_.end_of_stream(sensor);
 }
 
+void EngineInlet::tend() noexcept {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (lock.owns_lock()) engine_.tend();
+}
+
 void FeedFromBus::on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
   inlet_.push(imu_topics_.claims(sensor) ? std::string_view{} : sensor, samples);
 }

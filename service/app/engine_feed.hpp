@@ -17,6 +17,8 @@ class EngineInlet {
   /// As Engine::push().
   std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   void end(std::string_view sensor) noexcept;
+  /// As Engine::tend(), unless somebody pushes at the moment: then at the next call.
+  void tend() noexcept;
 
  private:
   std::mutex

@@ -103,6 +103,7 @@ void serve(Service& service, Interrupt& interrupt) {
   unsigned ticks = 0;
   while (!interrupt.wait_for(kTick)) {
     (void)sd_notify(0, "WATCHDOG=1");
+    service.tend();
     status.tick(service.snapshot(), service.matched_writers());
     if (++ticks % kTicksPerSave == 0) service.keep_noise();
   }

@@ -69,6 +69,8 @@ class Service {
   [[nodiscard]] std::size_t matched_writers() const {
     return subscriber_.matched_writers() + imu_topics_.snapshot().matched_writers;
   }
+  /// Looks for sensors that say nothing (stream::Engine::tend): to be called about once a second.
+  void tend() noexcept { inlet_.tend(); }
   /// Writes the noise state file if anything has been learned since the last time.
   void keep_noise();
   [[nodiscard]] const NoiseSources& noise() const noexcept { return noise_; }

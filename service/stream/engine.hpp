@@ -103,7 +103,7 @@ class Engine {
   /// channel and its counts stay, and a later sample opens a new window.
   void end_of_stream(std::string_view sensor) noexcept;
 
-  /// Looks after sensors that send nothing: time alone brings no sample, so whoever pushes calls this several times a second.
+  /// Looks after sensors that send nothing: time alone brings no sample, so whoever pushes calls this about once a second.
   ///   silent:    its window is closed as by a gap, its last samples flagged kTail; what comes next begins a new window. Where
   ///              samples were late and not lost, this changes bits and flags against a run in which they came in time;
   ///   forgotten: the channel closes, and its memory is free for another. Its counts stay in the totals. If it comes back it is new, with

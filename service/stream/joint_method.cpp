@@ -1,5 +1,6 @@
 #include "stream/joint_method.hpp"
 
+#include <limits>
 #include <numbers>
 
 #include "core/joint/joint_fit.hpp"
@@ -8,12 +9,15 @@
 namespace gyrod::stream {
 namespace {
 
+/// The axes of a gyro have noise of a size: an axis that seems to have more than this, in variance, than the quietest, shakes.
+constexpr double kMostOfQuietest = 4.0;
 /// Beyond these the innovations are not those of the model: 0.6 to 0.8 is what a level 20 % too high looks like.
 constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;
 
 struct JointState final : Model {
   void reset() noexcept override { joint = {}; }
+  [[nodiscard]] double noise_variance() const noexcept override { return joint.noise_variance; }
   core::JointModel joint;
 };
 
@@ -28,6 +32,8 @@ class JointMethod final : public ModelMethod {
     const bool known = window.noise_source != NoiseSource::kNone;
     const bool limited = max_signal_hz_ > 0.0 && window.sample_rate_hz > 0.0;
     fit_.set_sample_rate(window.sample_rate_hz);
+    fit_.set_most_noise(window.others_noise > 0.0 ? kMostOfQuietest * window.others_noise
+                                                  : std::numeric_limits<double>::infinity());
     fit_.set_max_signal(limited ? max_signal_hz_ / window.sample_rate_hz : 1.0);
     fit_.fit(window.samples, known ? window.noise : core::NoiseModel{}, static_cast<JointState&>(model).joint,
              report);

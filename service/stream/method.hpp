@@ -31,6 +31,9 @@ struct WindowInput {
   NoiseSource noise_source = NoiseSource::kNone;
   /// Of this axis, (rad/s)^2; meaningless for kNone.
   core::NoiseModel noise;
+  /// Least variance of the noise that the models of the sensor's other axes have found so far, (rad/s)^2; 0 where none has. Model methods
+  /// only.
+  double others_noise = 0.0;
 };
 
 /// One worker's copy of a window method. Owns its workspace; a call allocates nothing and is a pure function
@@ -56,6 +59,8 @@ class Model {
   /// Forgets every window, as just made: the stream has ended. Allocates nothing. After a gap, the same sensor going on, it is not
   /// called.
   virtual void reset() noexcept = 0;
+  /// Variance of the sensor's own noise as the last window had it, (rad/s)^2; 0 where it does not know.
+  [[nodiscard]] virtual double noise_variance() const noexcept { return 0.0; }
 };
 
 /// Longest lag of a model method, samples: its filters carry as many past states along.

@@ -1,5 +1,7 @@
 #include "stream/workbench.hpp"
 
+#include <algorithm>
+#include <array>
 #include <type_traits>
 
 namespace gyrod::stream {
@@ -65,8 +67,19 @@ void Workbench::denoise(WindowMethod& method, const Channel& channel, const Wind
 }
 
 void Workbench::fit(ModelMethod& method, Channel& channel, const WindowJob& job) noexcept {
+  // As they were before this window: the answers do not depend on the order of the axes.
+  std::array<double, kAxes> noise{};
   for (std::size_t axis = 0; axis < kAxes; ++axis)
-    method.fit(input(channel, job, axis), channel.fast_loop->model(axis), report_.axis[axis]);
+    noise[axis] = channel.fast_loop->model(axis).noise_variance();
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    WindowInput window = input(channel, job, axis);
+    for (std::size_t other = 0; other < kAxes; ++other) {
+      if (other == axis || !(noise[other] > 0.0)) continue;
+      window.others_noise =
+          window.others_noise > 0.0 ? std::min(window.others_noise, noise[other]) : noise[other];
+    }
+    method.fit(window, channel.fast_loop->model(axis), report_.axis[axis]);
+  }
 }
 
 /// One axis of the window. Valid until the next call.

@@ -71,7 +71,9 @@ std::unique_ptr<Process> Rig::start_daemon(const DaemonOptions& options) {
        << R"("denoise": {"method": ")" << options.method << R"(", "window_samples": )"
        << options.window_samples << "},"
        << R"("noise": {"state_file": ")" << options.state_file << R"("},)"
-       << R"("limits": {"max_delay_s": 3600, "max_channels": )" << options.max_channels << "},"
+       << R"("limits": {"max_delay_s": 3600, "max_channels": )" << options.max_channels
+       << R"(, "silent_after_s": )" << options.silent_after_s << R"(, "forget_after_s": )"
+       << options.forget_after_s << "},"
        << R"("workers": )" << options.workers << R"(, "monitor": {"port": 0},)"
        << R"("stop": {"deadline_s": )" << options.stop_deadline_s << "}}";
   write_file("gyrod.json", text.str());

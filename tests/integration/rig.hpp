@@ -46,7 +46,9 @@ class Rig : public ::testing::Test {
     std::size_t max_messages = 4096;  ///< that DDS holds for the daemon
     std::string method = "joint";
     std::string state_file = {};  ///< of noise; empty: none
-    std::string ros2 = "{}";      ///< bus.ros2, JSON
+    double silent_after_s = 0.0;  ///< 0, never: a sensor that a sanitizer slows down is not silent
+    double forget_after_s = 0.0;
+    std::string ros2 = "{}";  ///< bus.ros2, JSON
   };
   /// Writes the configuration and starts the daemon; waits until it serves. Overload is out of reach, so that
   /// results do not depend on the machine.

@@ -80,7 +80,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
 }
 
 /// What the noise is taken for: as believed, its level corrected by what the windows so far have shown; or, where nothing is believed,
-/// white, at the level of the quietest band.
+/// white, at the level of the quietest bands, or at what the other axes allow.
 void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, WindowReport& report) noexcept {
   const bool known = is_usable(believed);
   unit_ = known ? noise_variance(believed) : 1.0;
@@ -92,7 +92,7 @@ void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, Wi
   if (known) {
     noise_ = scaled(noise_, std::sqrt(tracker.level()));
   } else {
-    unit_ = tracker.floor();
+    unit_ = std::min(tracker.floor(), most_noise_);
     if (is_usable(white_noise(unit_))) {
       for (double& power : periodogram_) power /= unit_;
     } else {

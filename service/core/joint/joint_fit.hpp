@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -36,8 +37,12 @@ class JointFit {
   /// From here on windows are sampled at this rate, Hz; 0 (as at the start) while unknown. Options become what JointScale makes of them.
   void set_sample_rate(double sample_rate_hz) noexcept;
 
+  /// From here on noise that is not known is taken for no more than this, a variance in the data's unit; infinite at the start. For what
+  /// the sensor's other axes tell.
+  void set_most_noise(double variance) noexcept { most_noise_ = variance; }
+
   /// @param window uniformly sampled, finite, any unit
-  /// @param noise  the channel's noise; where it is not usable, white noise of the quietest band's level is taken
+  /// @param noise  the channel's noise; where it is not usable, white noise of the quietest bands' level is taken
   /// @param model  receives the members; untouched where the window does not vary
   /// @param report receives mean, noise floor and the IMFs' figures
   /// @pre kMinSamples <= window.size() <= max_samples
@@ -68,6 +73,7 @@ class JointFit {
   std::vector<double> periodogram_;
   NoiseModel noise_;   ///< of this window, in parts of unit_
   double unit_ = 1.0;  ///< variance of the noise
+  double most_noise_ = std::numeric_limits<double>::infinity();
   double max_signal_cycles_ = 1.0;
   ModeSet full_;
   ModeSet pruned_;

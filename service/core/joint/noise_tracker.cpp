@@ -23,6 +23,8 @@ constexpr std::size_t kQuietest = 3;
 /// Beyond these the noise is said to be wrong: the spread of level() on the right noise is 0.9 to 1.3.
 constexpr double kTooQuiet = 0.8;
 constexpr double kTooLoud = 1.4;
+/// Where nothing is believed, bands up to so far above the quietest are noise as well: its colour. Source: docs/decisions/0006.
+constexpr double kSameNoise = 2.5;
 /// Mean of the least of kBands estimates of 1, each with the spread that three windows leave.
 constexpr double kLeastOfBands = 0.93;
 
@@ -58,7 +60,17 @@ double NoiseTracker::level() const noexcept {
   return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest, kQuietestPower)));
 }
 
-double NoiseTracker::floor() const noexcept { return std::ranges::min(ratio_) / kLeastOfBands; }
+double NoiseTracker::floor() const noexcept {
+  const double least = std::ranges::min(ratio_);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double ratio : ratio_) {
+    if (ratio > kSameNoise * least) continue;
+    sum += ratio;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::max(sum / count, least / kLeastOfBands) : 0.0;
+}
 
 bool NoiseTracker::disagrees() const noexcept {
   return known_ && (level() < kTooQuiet || level() > kTooLoud);

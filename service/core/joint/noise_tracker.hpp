@@ -28,7 +28,8 @@ class NoiseTracker {
   /// the bands hold motion: on a rough road every band holds some.
   [[nodiscard]] double level() const noexcept;
 
-  /// Power of the quietest band, raised by what the least of kBands estimates lies below their mean.
+  /// Mean power of the bands that are as quiet as the quietest, within 2.5 of it; at least the quietest's, raised by what the least of
+  /// kBands estimates lies below their mean.
   [[nodiscard]] double floor() const noexcept;
 
   /// True where the level is so far from 1 that the believed noise is wrong.

@@ -64,6 +64,18 @@ TEST(EngineWithModels, AModelRemembersTheWindowsOfItsStreamAcrossAGapAndForgetsT
   EXPECT_EQ(last_count(sink), 1.0);
 }
 
+TEST(EngineWithModels, TellEachAxisTheLeastNoiseThatTheOthersHadAWindowBefore) {
+  RecordingSink sink;
+  Engine engine(small_options(0), testing::last_sample_method(), sink);
+  engine.push("imu", counting_samples(64));  // x counts up, y is -x, z half of x
+  const auto reports = sink.reports("imu");
+  ASSERT_EQ(reports.size(), 2U);
+  for (const core::WindowReport& axis : reports[0].axis) EXPECT_EQ(axis.mean, 0.0) << "nobody knows yet";
+  EXPECT_EQ(reports[1].axis[0].mean, 15.5) << "z; y is below 0: does not know";
+  EXPECT_EQ(reports[1].axis[1].mean, 15.5);
+  EXPECT_EQ(reports[1].axis[2].mean, 31.0);
+}
+
 /// The widest hop; 32 is the hop itself, so that overload step 1 shows in the models' age alone.
 class EngineWithLateModels : public ::testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(WidestHop, EngineWithLateModels, ::testing::Values(32, 64));

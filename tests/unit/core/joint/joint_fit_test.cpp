@@ -54,6 +54,18 @@ TEST(JointFit, WhiteNoiseGivesAQuietOutput) {
   EXPECT_EQ(out.fallbacks, 0U);
 }
 
+TEST(JointFit, TakesNoiseThatIsNotKnownForNoMoreThanItIsTold) {
+  const Signal z = testing::white_noise(kWindow, 3);
+  JointModel model;
+  WindowReport report;
+  JointFit fit(kWindow);
+  fit.set_most_noise(0.25);
+  fit.fit(z, {}, model, report);
+  EXPECT_DOUBLE_EQ(report.noise_floor, 0.5);
+  fit.fit(z, core::white_noise(1.0), model, report);
+  EXPECT_GT(report.noise_floor, 0.9) << "known noise is known";
+}
+
 TEST(JointFit, TakesTheNoiseOffASwing) {
   const Signal truth = testing::times(testing::tone(4000, 0.005), 3.0);
   const Signal z = testing::sum(truth, testing::white_noise(4000, 2), 0.5);

@@ -70,6 +70,13 @@ TEST(NoiseTracker, TakesTheQuietestBandWhereNothingIsKnown) {
   EXPECT_FALSE(tracker.disagrees());
 }
 
+TEST(NoiseTracker, TakesTheMeanOfTheQuietBandsWhereNothingIsKnown) {
+  // Noise of 4 but for one band of 3, its colour, and one of 100, motion.
+  Spectrum power = spectrum(4.0, 100.0, 1);
+  for (std::size_t k = 7 * (kBins - 1) / 8 + 1; k < kBins; ++k) power[k] = 3.0;
+  EXPECT_NEAR(watched(power, false).floor(), (6.0 * 4.0 + 3.0) / 7.0, 0.05);
+}
+
 TEST(NoiseTracker, BeginsAnewWhereTheNoiseBecomesKnown) {
   NoiseTracker tracker = watched(spectrum(1.5), false, 100);
   tracker.observe(spectrum(1.0), Spectrum(kBins, 1.0), true, kShare);
