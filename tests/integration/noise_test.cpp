@@ -22,10 +22,10 @@ const std::vector<std::string> kEstimates = {"gyro_x_radps",     "gyro_y_radps",
 
 class Noise : public Rig {
  protected:
-  /// 90 s at rest, then 20 s of driving, as one recording.
+  /// 40 s at rest, then 10 s of driving, as one recording.
   void make_drive() {
-    ASSERT_EQ(run({"simulate", "--samples", "9000", "-o", path("still.csv")}).exit_code, 0);
-    ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", "2000", "-o", path("moving.csv")}).exit_code,
+    ASSERT_EQ(run({"simulate", "--samples", "4000", "-o", path("still.csv")}).exit_code, 0);
+    ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", "1000", "-o", path("moving.csv")}).exit_code,
               0);
     std::string text = "sequence,stamp_ns,gyro_x_radps,gyro_y_radps,gyro_z_radps\n";
     std::int64_t n = 0;
@@ -74,7 +74,7 @@ TEST_F(Noise, IsLearnedAtRestFromTheSameSampleOnLiveAndOfflineAndRememberedAfter
   EXPECT_TRUE(columns_of(path("first.csv"), kEstimates) == expected);
   const std::size_t since = learned_since("first.csv");
   EXPECT_GT(since, 1000U) << "ten seconds of rest at least";
-  EXPECT_LT(since, 9000U);
+  EXPECT_LT(since, 4000U);
   std::filesystem::remove(path("state.json"));
   live(4, 64, "again.csv");
   EXPECT_EQ(learned_since("again.csv"), since);
