@@ -66,7 +66,7 @@ DenoisePlan plan_of(const DenoiseChoice& choice) {
   settings::DenoiseSettings& denoise = plan.settings.denoise;
   choose_method(choice, plan.settings);
   choose_screening(choice, denoise);
-  if (!choice.scheme.empty()) denoise.scheme = *core::scheme_of(choice.scheme);
+  if (const auto scheme = core::scheme_of(choice.scheme)) denoise.scheme = *scheme;
   if (choice.estimate == "realtime") {
     if (!is_model_method(denoise))
       throw CLI::ValidationError("--estimate", "realtime is of method joint; method paper has none");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Core>
 #include <unsupported/Eigen/SpecialFunctions>
@@ -17,7 +18,7 @@ struct CubeRoot {
   double mean;
 };
 
-double normal_probability(double z) noexcept { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+double normal_probability(double z) noexcept { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 /// The normal variable that x stands for.
 double cube_root_normal(double x, double degrees) noexcept {
