@@ -21,8 +21,8 @@ class EngineInlet {
   void tend() noexcept;
 
  private:
-  std::mutex
-      mutex_;  ///< taken before all others; held while push() waits for workers, which then all wait for
+  /// Taken before all others, and held while push() waits for workers: then both threads wait.
+  std::mutex mutex_;
   stream::Engine& engine_;
 };
 

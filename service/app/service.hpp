@@ -20,9 +20,9 @@
 
 namespace gyrod::app {
 
-/// What the engine releases goes to DDS, where it came from: to gyrod's own topics, or, of ROS 2 sensors, to theirs. While the daemon runs, this waits for no reader. A stop releases in
-/// one go what took seconds to come in, more than the writers keep for readers that are behind; so it waits
-/// for them, within bounds.
+/// What the engine releases goes to DDS, where it came from: to gyrod's own topics, or, of ROS 2 sensors, to theirs. While the daemon
+/// runs, this waits for no reader. A stop releases in one go what took seconds to come in, more than the writers keep for readers that
+/// are behind; so it waits for them, within bounds.
 class ReleaseToBus final : public stream::Sink {
  public:
   /// @param depth messages that the writers keep of a sensor
