@@ -12,6 +12,16 @@ auto make_method(const MethodFactory& factory, std::size_t window_samples) {
   return std::visit([&](const auto& kind) -> Method { return kind.method(window_samples); }, factory);
 }
 
+/// The least variance above 0 of the axes but this one; 0 where there is none.
+double least_of_others(const std::array<double, kAxes>& variance, std::size_t axis) noexcept {
+  double least = 0.0;
+  for (std::size_t other = 0; other < kAxes; ++other) {
+    if (other == axis || !(variance[other] > 0.0)) continue;
+    least = least > 0.0 ? std::min(least, variance[other]) : variance[other];
+  }
+  return least;
+}
+
 }  // namespace
 
 Workbench::Workbench(const EngineOptions& options, const MethodFactory& factory)
@@ -73,11 +83,7 @@ void Workbench::fit(ModelMethod& method, Channel& channel, const WindowJob& job)
     noise[axis] = channel.fast_loop->model(axis).noise_variance();
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     WindowInput window = input(channel, job, axis);
-    for (std::size_t other = 0; other < kAxes; ++other) {
-      if (other == axis || !(noise[other] > 0.0)) continue;
-      window.others_noise =
-          window.others_noise > 0.0 ? std::min(window.others_noise, noise[other]) : noise[other];
-    }
+    window.others_noise = least_of_others(noise, axis);
     method.fit(window, channel.fast_loop->model(axis), report_.axis[axis]);
   }
 }
