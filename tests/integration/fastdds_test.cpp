@@ -48,7 +48,7 @@ class FastDds : public Rig {
 TEST_F(FastDds, ANodeIsDenoisedAsItsRecordingAndGetsItsOwnMessagesBack) {
   constexpr std::size_t kMessages = 1000;
   write_file("raw.csv", recording_of(noisy_imu_messages(kMessages)));
-  const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/car/imu/data_raw"]})"});
+  const auto daemon = start_daemon({.patch = R"({"bus": {"ros2": {"topics": ["rt/car/imu/data_raw"]}}})"});
   const char* program = std::getenv("GYROD_FASTDDS_NODE");
   ASSERT_NE(program, nullptr) << "ctest sets it";
   Process node(

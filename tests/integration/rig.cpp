@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <httplib.h>
+#include <nlohmann/json.hpp>
 
 #include "support/samples.hpp"
 
@@ -22,11 +23,11 @@ std::string required_variable(const char* name) {
 }
 
 /// One of the domains 80..219, beyond those of other tests. Programs of one run, side by side, differ in their
-/// slot; two runs on one machine most likely in the block of ten.
+/// slot; two runs on one machine most likely in the block of twenty.
 std::uint32_t own_domain() {
   constexpr std::uint32_t kFirst = 80;
-  constexpr std::uint32_t kSlots = 10;
-  constexpr std::uint32_t kBlocks = 14;
+  constexpr std::uint32_t kSlots = 20;
+  constexpr std::uint32_t kBlocks = 7;
   const auto slot = static_cast<std::uint32_t>(std::stoul(required_variable("GYROD_TEST_SLOT")));
   return kFirst + static_cast<std::uint32_t>(getpid()) % kBlocks * kSlots + slot % kSlots;
 }
@@ -64,19 +65,25 @@ Rig::Result Rig::run_on_bus(std::vector<std::string> arguments) {
   return run(arguments);
 }
 
+void Rig::write_config(const DaemonOptions& options, const std::string& name) const {
+  nlohmann::json config = {
+      {"bus", {{"domain", domain_}, {"input", {{"max_messages", options.max_messages}}}}},
+      {"denoise", {{"method", options.method}, {"window_samples", options.window_samples}}},
+      {"noise", {{"state_file", options.state_file}}},
+      {"limits",
+       {{"max_delay_s", 3600},
+        {"max_channels", options.max_channels},
+        {"silent_after_s", options.silent_after_s},
+        {"forget_after_s", options.forget_after_s}}},
+      {"workers", options.workers},
+      {"monitor", {{"port", 0}}},
+      {"stop", {{"deadline_s", options.stop_deadline_s}}}};
+  config.merge_patch(nlohmann::json::parse(options.patch));
+  write_file(name, config.dump(2));
+}
+
 std::unique_ptr<Process> Rig::start_daemon(const DaemonOptions& options) {
-  std::ostringstream text;
-  text << R"({"bus": {"domain": )" << domain_ << R"(, "input": {"max_messages": )" << options.max_messages
-       << R"(}, "ros2": )" << options.ros2 << "},"
-       << R"("denoise": {"method": ")" << options.method << R"(", "window_samples": )"
-       << options.window_samples << "},"
-       << R"("noise": {"state_file": ")" << options.state_file << R"("},)"
-       << R"("limits": {"max_delay_s": 3600, "max_channels": )" << options.max_channels
-       << R"(, "silent_after_s": )" << options.silent_after_s << R"(, "forget_after_s": )"
-       << options.forget_after_s << "},"
-       << R"("workers": )" << options.workers << R"(, "monitor": {"port": 0},)"
-       << R"("stop": {"deadline_s": )" << options.stop_deadline_s << "}}";
-  write_file("gyrod.json", text.str());
+  write_config(options);
   auto daemon = start({"run", "--config", config()});
   if (!daemon->wait_for_err("/metrics"))
     throw std::runtime_error("the daemon did not start: " + daemon->err());

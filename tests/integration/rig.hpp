@@ -48,8 +48,10 @@ class Rig : public ::testing::Test {
     std::string state_file = {};  ///< of noise; empty: none
     double silent_after_s = 0.0;  ///< 0, never: a sensor that a sanitizer slows down is not silent
     double forget_after_s = 0.0;
-    std::string ros2 = "{}";  ///< bus.ros2, JSON
+    std::string patch = "{}";  ///< what else differs: a JSON merge patch (RFC 7396) of the configuration
   };
+  /// Writes the configuration that start_daemon() would.
+  void write_config(const DaemonOptions& options, const std::string& name = "gyrod.json") const;
   /// Writes the configuration and starts the daemon; waits until it serves. Overload is out of reach, so that
   /// results do not depend on the machine.
   std::unique_ptr<Process> start_daemon(const DaemonOptions& options);

@@ -106,7 +106,7 @@ TEST_F(Ros2, ATopicIsDenoisedAsItsRecordingAndNothingElseOfAMessageChanges) {
                   .exit_code,
               0);
   }
-  const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/car/imu/data_raw"]})"});
+  const auto daemon = start_daemon({.patch = R"({"bus": {"ros2": {"topics": ["rt/car/imu/data_raw"]}}})"});
   ImuSubscription denoised(participant(), "rt/car/imu/data_denoised");
   ImuSubscription realtime(participant(), "rt/car/imu/data_realtime");
   ASSERT_TRUE(denoised.wait_for_writer() && realtime.wait_for_writer());
@@ -134,7 +134,8 @@ TEST_F(Ros2, MethodPaperReleasesWholeMessagesInBursts) {
                  "paper"})
                 .exit_code,
             0);
-  const auto daemon = start_daemon({.method = "paper", .ros2 = R"({"topics": ["rt/imu"]})"});
+  const auto daemon =
+      start_daemon({.method = "paper", .patch = R"({"bus": {"ros2": {"topics": ["rt/imu"]}}})"});
   ImuSubscription denoised(participant(), "rt/imu_denoised");
   ASSERT_TRUE(denoised.wait_for_writer());
   {
@@ -154,7 +155,7 @@ TEST_F(Ros2, MethodPaperReleasesWholeMessagesInBursts) {
 }
 
 TEST_F(Ros2, GapsShowByStampsAndWhatIsRefusedIsCountedAndNotPublished) {
-  const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/imu/data_raw"]})"});
+  const auto daemon = start_daemon({.patch = R"({"bus": {"ros2": {"topics": ["rt/imu/data_raw"]}}})"});
   ImuSubscription denoised(participant(), "rt/imu/data_denoised");
   ImuSubscription realtime(participant(), "rt/imu/data_realtime");
   ASSERT_TRUE(denoised.wait_for_writer() && realtime.wait_for_writer());
@@ -192,7 +193,8 @@ TEST_F(Ros2, GapsShowByStampsAndWhatIsRefusedIsCountedAndNotPublished) {
 
 TEST_F(Ros2, TopicsOfAPatternAreOpenedWhileRunningAndOutputsAreNeverRead) {
   // The pattern fits the outputs, too.
-  const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/*/imu/*"], "max_topics": 2})"});
+  const auto daemon =
+      start_daemon({.patch = R"({"bus": {"ros2": {"topics": ["rt/*/imu/*"], "max_topics": 2}}})"});
   EXPECT_EQ(count(*daemon, "gyrod_ros2_topics"), 0.0);
   const std::vector<ImuMessage> sent = noisy_imu_messages(200);
   const auto drive = [&](const std::string& car) {
@@ -223,7 +225,7 @@ TEST_F(Ros2, TopicsOfAPatternAreOpenedWhileRunningAndOutputsAreNeverRead) {
 }
 
 TEST_F(Ros2, AnIdOfARos2TopicIsRefusedToSensorsOfTheOtherTopics) {
-  const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/*/imu"]})"});
+  const auto daemon = start_daemon({.patch = R"({"bus": {"ros2": {"topics": ["rt/*/imu"]}}})"});
   bus::BusOptions options;
   bus::RawWriter writer(domain(), options);
   ASSERT_TRUE(writer.wait_for_subscriber(std::chrono::seconds{60}));
@@ -235,7 +237,8 @@ TEST_F(Ros2, AnIdOfARos2TopicIsRefusedToSensorsOfTheOtherTopics) {
 }
 
 TEST_F(Ros2, AReliableSubscriptionIsServedWhereTheOutputIsReliable) {
-  const auto daemon = start_daemon({.ros2 = R"({"topics": ["rt/imu"], "output_reliability": "reliable"})"});
+  const auto daemon = start_daemon(
+      {.patch = R"({"bus": {"ros2": {"topics": ["rt/imu"], "output_reliability": "reliable"}}})"});
   ImuSubscription reliable(participant(), "rt/imu_realtime", true);
   ImuSubscription best_effort(participant(), "rt/imu_realtime");
   EXPECT_TRUE(reliable.wait_for_writer() && best_effort.wait_for_writer());
