@@ -83,6 +83,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
 /// white, at the level of the quietest bands, or at what the other axes allow.
 void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, WindowReport& report) noexcept {
   const bool known = is_usable(believed);
+  peak_ = {};
   unit_ = known ? noise_variance(believed) : 1.0;
   noise_ = known ? scaled(believed, 1.0 / std::sqrt(unit_)) : white_noise(1.0);
   const double share = static_cast<double>(options_.hop_samples) / static_cast<double>(max_samples_);
@@ -91,6 +92,7 @@ void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, Wi
   tracker.observe(periodogram_, whittle_.noise(), known, share);
   if (known) {
     noise_ = scaled(noise_, std::sqrt(tracker.level()));
+    peak_ = noise_peak(whittle_.noise());
   } else {
     unit_ = std::min(tracker.floor(), most_noise_);
     if (is_usable(white_noise(unit_))) {
@@ -197,8 +199,11 @@ BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept 
   return set;
 }
 
+/// Not what lies above the signal band, nor what is no more than the noise's own line, moved.
 bool JointFit::is_signal(const SpectralMode& mode) noexcept {
-  return mode.slow || max_signal_cycles_ >= 0.5 || whittle_.centre_cycles(mode) <= max_signal_cycles_;
+  if (mode.slow || (max_signal_cycles_ >= 0.5 && peak_.power == 0.0)) return true;
+  const auto [centre_cycles, power] = whittle_.weigh(mode);
+  return centre_cycles <= max_signal_cycles_ && !peak_.may_be(centre_cycles, power);
 }
 
 BlockSet JointFit::with_agile(const FilterBlock& agile) noexcept {

@@ -10,6 +10,7 @@
 #include "core/emd/emd.hpp"
 #include "core/joint/joint_model.hpp"
 #include "core/joint/joint_options.hpp"
+#include "core/joint/noise_peak.hpp"
 #include "core/joint/recency_tapers.hpp"
 #include "core/joint/whittle_fit.hpp"
 #include "core/noise/noise_model.hpp"
@@ -72,6 +73,7 @@ class JointFit {
   std::vector<double> slow_;
   std::vector<double> periodogram_;
   NoiseModel noise_;   ///< of this window, in parts of unit_
+  NoisePeak peak_;     ///< of its spectrum
   double unit_ = 1.0;  ///< variance of the noise
   double most_noise_ = std::numeric_limits<double>::infinity();
   double max_signal_cycles_ = 1.0;

@@ -88,7 +88,7 @@ double WhittleFit::log_likelihood(const ModeSet& modes) noexcept {
   return sum;
 }
 
-double WhittleFit::centre_cycles(const SpectralMode& mode) noexcept {
+WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
   const auto spectrum = row(0);
   std::ranges::fill(sum_, 0.0);
   kernel_->add_spectrum(bins_, mode, cosines_.data(), sines_.data(), spectrum.data(), sum_.data());
@@ -98,7 +98,8 @@ double WhittleFit::centre_cycles(const SpectralMode& mode) noexcept {
     power += spectrum[k];
     moment += spectrum[k] * static_cast<double>(k);
   }
-  return power > 0.0 ? 0.5 * moment / power / static_cast<double>(bins_ - 1) : 0.0;
+  return {.centre_cycles = power > 0.0 ? 0.5 * moment / power / static_cast<double>(bins_ - 1) : 0.0,
+          .power = power / static_cast<double>(bins_)};
 }
 
 SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool slow) const noexcept {

@@ -44,8 +44,13 @@ class WhittleFit {
   /// ln L of these modes, up to a constant.
   [[nodiscard]] double log_likelihood(const ModeSet& modes) noexcept;
 
-  /// Centre of gravity of a mode's spectrum, cycles per sample.
-  [[nodiscard]] double centre_cycles(const SpectralMode& mode) noexcept;
+  /// Where a mode's power lies, and how much it is.
+  struct Weight {
+    double centre_cycles =
+        0.0;             ///< centre of gravity of its spectrum, cycles per sample; 0 where there is no power
+    double power = 0.0;  ///< its variance, in the periodogram's unit
+  };
+  [[nodiscard]] Weight weigh(const SpectralMode& mode) noexcept;
 
   /// The mode whose autocovariances r_0 .. r_kModeOrder are given.
   [[nodiscard]] SpectralMode mode_of(std::span<const double> autocovariance, bool slow) const noexcept;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/noise/line_spread.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -126,9 +128,11 @@ void StandstillLearner::learn() noexcept {
   const double kept = std::min(state_.segments, most_segments_ - fresh.count);
   const double all = kept + fresh.count;
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
+    // Here and not before a fit: what comes back from a state file has been spread already.
+    const NoiseSpectrum power = spread_lines(fresh.power[axis]);
     double sum = 0.0;
     for (std::size_t k = 0; k < kNoiseBins; ++k) {
-      power_[axis][k] = (kept * power_[axis][k] + fresh.power[axis][k]) / all;
+      power_[axis][k] = (kept * power_[axis][k] + power[k]) / all;
       sum += power_[axis][k];
     }
     level_[axis] = sum / static_cast<double>(kNoiseBins);

@@ -1,0 +1,70 @@
+// A sensor whose noise has a line: where it stands, where it has moved to, and motion at its frequency.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/noise/noise_model.hpp"
+#include "joint_support.hpp"
+#include "support/signals.hpp"
+
+namespace gyrod {
+namespace {
+
+using testing::Signal;
+
+constexpr std::size_t kSize = 6000;
+constexpr std::size_t kBegin = 2000;
+constexpr std::size_t kLag = 16;
+constexpr double kRadius = 0.97;
+
+/// A resonance at so many cycles per sample with this standard deviation.
+Signal line(double cycles, double deviation, unsigned seed) {
+  const auto block = testing::oscillation(kRadius, 2.0 * std::numbers::pi * cycles, 1.0);
+  const Signal shape = testing::autoregressive(std::array{block.a[0], block.a[1]}, kSize, seed);
+  double squares = 0.0;
+  for (const double value : shape) squares += value * value;
+  return testing::times(shape, deviation / std::sqrt(squares / kSize));
+}
+
+/// White noise of variance 1 and a line at 0.2 cycles per sample of half that.
+core::NoiseModel noise_with_line() {
+  const auto block = testing::oscillation(kRadius, 2.0 * std::numbers::pi * 0.2, 1.0);
+  core::NoiseModel model = core::white_noise(1.0);
+  model.colour_order = 2;
+  model.colour = {block.a[0], block.a[1]};
+  model.colour_variance = 1.0;
+  model.colour_variance = 0.5 / (core::noise_variance(model) - 1.0);
+  return model;
+}
+
+/// Standard deviation of what is left, with a line there, of noise that is believed to have it at 0.2.
+double left_of_noise_with_line_at(double cycles, double deviation) {
+  const Signal z = testing::sum(testing::white_noise(kSize, 1), line(cycles, deviation, 2), 1.0);
+  const auto out = testing::run_joint(z, noise_with_line(), kLag);
+  return testing::rms_difference(out.denoised, Signal(kSize, 0.0), kBegin, kSize - kLag);
+}
+
+constexpr double kOfHalfThePower = 0.7071;
+
+TEST(JointWithANoiseLine, TakesItOffWhereItStands) {
+  EXPECT_LT(left_of_noise_with_line_at(0.2, kOfHalfThePower), 0.25);
+}
+
+// Taken for motion, 0.42 to 0.58 of the line came through.
+TEST(JointWithANoiseLine, TakesItOffWhereItHasMovedTo) {
+  EXPECT_LT(left_of_noise_with_line_at(0.18, kOfHalfThePower), 0.25);
+  EXPECT_LT(left_of_noise_with_line_at(0.22, kOfHalfThePower), 0.25);
+  EXPECT_LT(left_of_noise_with_line_at(0.235, kOfHalfThePower), 0.35);
+}
+
+// A vibration ten times as strong as the line, or far from it, is motion; a filter that loses it would leave far less.
+TEST(JointWithANoiseLine, KeepsMotionThatIsStrongerOrElsewhere) {
+  EXPECT_GT(left_of_noise_with_line_at(0.22, 3.0), 2.0);
+  EXPECT_GT(left_of_noise_with_line_at(0.1, 1.5), 1.0);
+}
+
+}  // namespace
+}  // namespace gyrod
