@@ -9,6 +9,7 @@
 #include "app/exit_code.hpp"
 #include "app/version.hpp"
 #include "bus/bus_error.hpp"
+#include "bus/security_error.hpp"
 #include "files/file_error.hpp"
 #include "settings/json_fields.hpp"
 #include "settings/load.hpp"
@@ -73,6 +74,8 @@ int run_command_line(int argc, const char* const* argv) noexcept {
     return complain(error, kFileTrouble);
   } catch (const settings::NoiseFileError& error) {
     return complain(error, kFileTrouble);
+  } catch (const bus::SecurityError& error) {
+    return complain(error, kNotAllowed);
   } catch (const bus::BusError& error) {
     return complain(error, kUnavailable);
   } catch (const Unavailable& error) {

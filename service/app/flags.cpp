@@ -30,12 +30,18 @@ void BusFlags::add_to(CLI::App& command) {
                   "loopback: this machine only; default: as CYCLONEDDS_URI says or Cyclone DDS finds it;\n"
                   "else a Cyclone DDS XML file [as configured, else loopback]")
       ->type_name("NET");
+  command
+      .add_option("--security", security,
+                  "DDS Security with the certificate, key and permissions in this folder\n"
+                  "(deploy/security/make.sh makes some) [as configured, else none]")
+      ->type_name("FOLDER");
 }
 
 settings::Settings BusFlags::load() const {
   settings::Settings settings = load_or_default(config);
   if (domain) settings.bus.domain = *domain;
   if (network) settings.bus.network = *network;
+  if (security) settings.bus.security.folder = *security;
   return settings;
 }
 

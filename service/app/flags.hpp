@@ -19,6 +19,7 @@ struct BusFlags {
   std::string config;
   std::optional<std::uint32_t> domain;
   std::optional<std::string> network;
+  std::optional<std::string> security;
 
   void add_to(CLI::App& command);
   /// The configuration file's settings, or the defaults where none is named, with the flags on top.

@@ -123,7 +123,7 @@ files::RowKind row_kind(const bus::Recorder& recorder) {
 
 int record(const RecordFlags& flags, Interrupt& interrupt) {
   const settings::Settings settings = flags.bus.load();
-  const bus::Domain domain(settings.bus.domain, settings.bus.network);
+  const bus::Domain domain(settings.bus.domain, settings.bus.network, settings.bus.security.folder);
   const auto wait = std::chrono::milliseconds(static_cast<std::int64_t>(flags.wait_s * 1e3));
   interrupt.let_through();  // looking for the topic; nothing has been written yet
   bus::Recorder recorder(domain, bus_options(settings.bus), flags.topic, wait);

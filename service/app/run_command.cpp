@@ -1,10 +1,13 @@
 #include <chrono>
 #include <cstdlib>
+#include <optional>
 
+#include <spdlog/fmt/chrono.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <systemd/sd-daemon.h>
 
+#include "app/certificate_watch.hpp"
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
@@ -78,10 +81,17 @@ void announce_ros2(const settings::Settings& settings) {
   }
 }
 
+void announce_security(const std::optional<bus::Identity>& identity) {
+  if (!identity) return;
+  spdlog::info("DDS Security: we are '{}', certificates hold until {:%Y-%m-%d}", identity->subject,
+               fmt::gmtime(std::chrono::system_clock::to_time_t(identity->expires_at)));
+}
+
 void announce(const settings::Settings& settings, const Service& service) {
   const auto& topics = settings.bus.topics;
   spdlog::info("gyrod {}: domain {}, network {}, {} workers", version(), settings.bus.domain,
                settings.bus.network, service.workers());
+  announce_security(service.identity());
   const bool realtime = is_model_method(settings.denoise);
   spdlog::info("reads {} and {}, writes {}, {}{} and {}", topics.raw, topics.raw_batch, topics.denoised,
                topics.denoised_batch,
@@ -96,7 +106,26 @@ void announce(const settings::Settings& settings, const Service& service) {
   spdlog::info("metrics at http://{}:{}/metrics", settings.monitor.address, service.monitor_port());
 }
 
-void serve(Service& service, Interrupt& interrupt) {
+/// What DDS Security has to say: of peers that are kept out, and of our own certificate.
+class SecurityLog {
+ public:
+  SecurityLog(const Service& service, const settings::SecuritySettings& settings) {
+    if (service.identity()) watch_.emplace(*service.identity(), std::chrono::days(settings.warn_before_days));
+  }
+
+  void tick(Service& service) {
+    for (const std::string& line : service.look_at_peers()) spdlog::warn("DDS Security: {}", line);
+    if (!watch_) return;
+    const auto news =
+        watch_->look(std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
+    if (news) spdlog::log(news->expired ? spdlog::level::err : spdlog::level::warn, "{}", news->line);
+  }
+
+ private:
+  std::optional<CertificateWatch> watch_;
+};
+
+void serve(Service& service, SecurityLog& security, Interrupt& interrupt) {
   constexpr std::chrono::seconds kTick{1};  // far below any sensible WatchdogSec
   constexpr unsigned kTicksPerSave = 60;
   StatusLog status;
@@ -105,6 +134,7 @@ void serve(Service& service, Interrupt& interrupt) {
     (void)sd_notify(0, "WATCHDOG=1");
     service.tend();
     status.tick(service.snapshot(), service.matched_writers());
+    security.tick(service);
     if (++ticks % kTicksPerSave == 0) service.keep_noise();
   }
 }
@@ -117,7 +147,9 @@ int run(const BusFlags& flags, Interrupt& interrupt) {
   announce(settings, service);
   (void)sd_notify(0, "READY=1\nSTATUS=denoising");
 
-  serve(service, interrupt);
+  SecurityLog security(service, settings.bus.security);
+  security.tick(service);
+  serve(service, security, interrupt);
 
   spdlog::info("stopping: draining what is in flight, {} s at the most", settings.stop_deadline_s);
   (void)sd_notify(0, "STOPPING=1");

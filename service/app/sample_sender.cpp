@@ -45,15 +45,16 @@ SampleSender::SampleSender(const settings::BusSettings& settings, const SendFlag
       chunk_(chunk_of(flags)),
       interrupt_(interrupt),
       pacer_(flags.speed.speed, interrupt),
-      domain_(settings.domain, settings.network),
+      domain_(settings.domain, settings.network, settings.security.folder),
       writer_(domain_, bus_options(settings), flags.batch) {
   constexpr std::chrono::milliseconds kLook{100};
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::duration<double>(flags.wait_s);
   while (!writer_.wait_for_subscriber(kLook) && !interrupt.requested()) {
     if (std::chrono::steady_clock::now() < give_up) continue;
-    throw Incomplete("nobody reads topic '" + topic_ + "' in domain " + std::to_string(settings.domain) +
-                     " on network '" + settings.network +
-                     "'; expected a gyrod run with the same --domain and --network");
+    throw Incomplete(
+        "nobody reads topic '" + topic_ + "' in domain " + std::to_string(settings.domain) + " on network '" +
+        settings.network +
+        "'; expected a gyrod run with the same --domain, --network and, if any, --security authority");
   }
   // The others that listen already are found within a moment of the first; what is sent before they are is not theirs.
   constexpr std::chrono::milliseconds kDiscovery{500};

@@ -63,7 +63,7 @@ Service::Service(const settings::Settings& settings)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
       noise_file_(settings.noise.state_file, [](const std::string& line) { spdlog::warn(line); }),
       noise_(settings.noise, noise_file_.load()),
-      domain_(settings.bus.domain, settings.bus.network),
+      domain_(settings.bus.domain, settings.bus.network, settings.bus.security.folder),
       publisher_(domain_, live_bus_options(settings)),
       imu_topics_(domain_, live_bus_options(settings)),
       release_(publisher_, imu_topics_, settings.bus.output.history_depth),
@@ -73,6 +73,7 @@ Service::Service(const settings::Settings& settings)
       imu_feed_(inlet_),
       subscriber_(domain_, bus_options(settings.bus), feed_),
       imu_subscriber_(imu_topics_, imu_feed_) {
+  if (domain_.identity()) peers_.emplace(domain_);
   if (!settings.monitor.enabled) return;
   try {
     monitor_.emplace(monitor_options(settings.monitor), view());
@@ -102,6 +103,10 @@ bool Service::stop() {
   return denoised;
 }
 
+std::vector<std::string> Service::look_at_peers() {
+  return peers_ ? peers_->look(bus::PeerWatch::Clock::now()) : std::vector<std::string>{};
+}
+
 void Service::keep_noise() {
   const std::uint64_t revision = noise_.revision();
   if (revision == noise_kept_) return;
@@ -112,21 +117,31 @@ monitor::View Service::view() {
   return {.engine = [this] { return engine_.snapshot(); },
           .channels = [this](std::size_t limit) { return engine_.channels(limit); },
           .bus = [this] { return bus_snapshot(); },
-          .readiness =
-              [this] {
-                return monitor::Readiness{ready_, "starting or stopping"};
-              }};
+          .readiness = [this] { return readiness(); }};
+}
+
+monitor::Readiness Service::readiness() const {
+  if (!ready_) return {false, "starting or stopping"};
+  const auto& identity = domain_.identity();
+  if (identity && std::chrono::system_clock::now() >= identity->expires_at)
+    return {false, "a certificate has expired"};
+  return {true, ""};
 }
 
 monitor::BusSnapshot Service::bus_snapshot() const {
   const bus::ImuTopicsSnapshot ros2 = imu_topics_.snapshot();
+  const auto& identity = domain_.identity();
   return {.matched_writers = subscriber_.matched_writers() + ros2.matched_writers,
           .malformed_messages = subscriber_.malformed_messages() + ros2.malformed_messages,
           .refusals = subscriber_.refusals(),
           .write_errors = publisher_.write_errors() + ros2.write_errors,
           .ros2_topics = ros2.topics,
           .ros2_refused_topics = ros2.refused_topics,
-          .ros2_dropped_messages = ros2.dropped_messages};
+          .ros2_dropped_messages = ros2.dropped_messages,
+          .certificate_expiry_s =
+              identity ? std::optional(static_cast<double>(identity->expires_at.time_since_epoch().count()))
+                       : std::nullopt,
+          .refused_peers = peers_ ? std::optional(peers_->refused()) : std::nullopt};
 }
 
 }  // namespace gyrod::app

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/engine_feed.hpp"
 #include "app/noise_sources.hpp"
@@ -12,6 +14,7 @@
 #include "bus/domain.hpp"
 #include "bus/imu_subscriber.hpp"
 #include "bus/imu_topics.hpp"
+#include "bus/peer_watch.hpp"
 #include "bus/publisher.hpp"
 #include "bus/subscriber.hpp"
 #include "monitor/monitor.hpp"
@@ -56,7 +59,7 @@ class ReleaseToBus final : public stream::Sink {
 class Service {
  public:
   /// Joins the domain and takes the HTTP port; nothing flows yet.
-  /// @throws bus::BusError, Unavailable, settings::NoiseFileError for a calibration
+  /// @throws bus::BusError and SecurityError, Unavailable, settings::NoiseFileError for a calibration
   explicit Service(const settings::Settings& settings);
 
   void start();
@@ -71,6 +74,10 @@ class Service {
   }
   /// Looks for sensors that say nothing (stream::Engine::tend): to be called about once a second.
   void tend() noexcept { inlet_.tend(); }
+  /// Who we are under DDS Security, if it is used.
+  [[nodiscard]] const std::optional<bus::Identity>& identity() const noexcept { return domain_.identity(); }
+  /// What is to be logged of programs that DDS Security keeps out (bus::PeerWatch::look): to be called about once a second.
+  [[nodiscard]] std::vector<std::string> look_at_peers();
   /// Writes the noise state file if anything has been learned since the last time.
   void keep_noise();
   [[nodiscard]] const NoiseSources& noise() const noexcept { return noise_; }
@@ -83,6 +90,7 @@ class Service {
  private:
   [[nodiscard]] monitor::View view();
   [[nodiscard]] monitor::BusSnapshot bus_snapshot() const;
+  [[nodiscard]] monitor::Readiness readiness() const;
 
   std::chrono::milliseconds stop_deadline_;
   std::atomic<bool> ready_{false};
@@ -90,6 +98,7 @@ class Service {
   NoiseSources noise_;
   std::uint64_t noise_kept_ = 0;  ///< revision of noise_ that the file holds
   bus::Domain domain_;
+  std::optional<bus::PeerWatch> peers_;  ///< with DDS Security
   bus::Publisher publisher_;
   bus::ImuTopics imu_topics_;
   ReleaseToBus release_;

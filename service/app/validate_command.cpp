@@ -1,7 +1,9 @@
+#include <chrono>
 #include <cstdio>
 
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
+#include "bus/security_check.hpp"
 #include "settings/load.hpp"
 #include "settings/unused_keys.hpp"
 
@@ -10,6 +12,11 @@ namespace {
 
 int validate(const std::string& config) {
   const settings::Settings settings = settings::load_settings(config);
+  if (!settings.bus.security.folder.empty()) {
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    (void)bus::check_security(bus::security_files(settings.bus.security.folder), now,
+                              bus::KeyOwner::kAnyUser);
+  }
   std::printf("%s is valid\n", config.c_str());
   for (const std::string& line : settings::unused_keys(settings)) std::printf("  unused: %s\n", line.c_str());
   return kDone;
@@ -27,7 +34,8 @@ void add_validate(CLI::App& parser, Action& chosen) {
   command->footer(
       "Every error is reported at once: the key, its value, and what was expected.\n"
       "What is set in vain, a key of the other denoise.method, is named as well and is no error.\n"
-      "Exit code 0 if there is no error, else 3.\n\n"
+      "The files of bus.security.folder are checked, too, for whatever user will run gyrod.\n"
+      "Exit code 0 if there is no error, 7 for those files, else 3.\n\n"
       "Example:\n  gyrod validate --config /etc/gyrod/gyrod.json");
   command->callback([&chosen, config] { chosen = [config](Interrupt&) { return validate(*config); }; });
 }

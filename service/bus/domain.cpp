@@ -1,5 +1,6 @@
 #include "bus/domain.hpp"
 
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -7,6 +8,8 @@
 #include "bus/entity.hpp"
 #include "bus/log.hpp"
 #include "bus/network_config.hpp"
+#include "bus/security_error.hpp"
+#include "bus/security_properties.hpp"
 
 namespace gyrod::bus {
 namespace {
@@ -18,6 +21,7 @@ constexpr std::uint32_t kMaxDomainId = 230;
 struct OpenDomain {
   Entity entity;
   std::string network;
+  std::string security_folder;
   int users = 0;
 };
 
@@ -42,17 +46,22 @@ Entity create_domain(std::uint32_t id, const std::string& network) {
   return domain;
 }
 
-void acquire(std::uint32_t id, const std::string& network) {
+void acquire(std::uint32_t id, const std::string& network, const std::string& security_folder) {
   if (id > kMaxDomainId) {
     throw BusError("DDS domain id " + std::to_string(id) + ": expected 0.." + std::to_string(kMaxDomainId));
   }
   const std::lock_guard lock(open_domains_mutex);
   auto found = open_domains.find(id);
   if (found == open_domains.end()) {
-    found = open_domains.emplace(id, OpenDomain{create_domain(id, network), network}).first;
+    found = open_domains.emplace(id, OpenDomain{create_domain(id, network), network, security_folder}).first;
   } else if (found->second.network != network) {
     throw BusError("DDS domain " + std::to_string(id) + " is open on network '" + found->second.network +
                    "' in this process; expected the same and not '" + network + "'");
+  } else if (found->second.security_folder != security_folder) {
+    // The middleware has one set of security plugins a domain.
+    throw BusError("DDS domain " + std::to_string(id) + " is open with security files in '" +
+                   found->second.security_folder + "' in this process; expected the same and not '" +
+                   security_folder + "'");
   }
   ++found->second.users;
 }
@@ -68,30 +77,49 @@ void release(std::uint32_t id) noexcept {
 
 class Domain::Impl {
  public:
-  Impl(std::uint32_t id, const std::string& network) : membership_(id, network) {
+  Impl(std::uint32_t id, const std::string& network, const std::string& security_folder)
+      : identity_(identity_in(security_folder)), membership_(id, network, security_folder) {
     const LogCapture log;
-    const dds_entity_t created = dds_create_participant(id, nullptr, nullptr);
+    const SecurityProperties security(security_folder);
+    const dds_entity_t created = dds_create_participant(id, security.get(), nullptr);
+    if (identity_ && (created == DDS_RETCODE_ERROR || created == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)) {
+      throw SecurityError(security_folder, "'" + identity_->subject + "' is not let into domain " +
+                                               std::to_string(id) + " (" + log.text() +
+                                               "); expected governance and permissions that cover it now");
+    }
     participant_ = Entity(created, attempt_text("join", id, network, log));
   }
 
   [[nodiscard]] dds_entity_t participant() const noexcept { return participant_.get(); }
+  [[nodiscard]] const std::optional<Identity>& identity() const noexcept { return identity_; }
 
  private:
+  static std::optional<Identity> identity_in(const std::string& security_folder) {
+    if (security_folder.empty()) return std::nullopt;
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    return check_security(security_files(security_folder), now);
+  }
+
   struct Membership {
-    Membership(std::uint32_t domain_id, const std::string& network) : id(domain_id) { acquire(id, network); }
+    Membership(std::uint32_t domain_id, const std::string& network, const std::string& security_folder)
+        : id(domain_id) {
+      acquire(id, network, security_folder);
+    }
     ~Membership() { release(id); }
     Membership(const Membership&) = delete;
     Membership& operator=(const Membership&) = delete;
     std::uint32_t id;
   };
 
+  std::optional<Identity> identity_;
   Membership membership_;  // outlives the participant
   Entity participant_;
 };
 
-Domain::Domain(std::uint32_t id, const std::string& network)
-    : impl_(std::make_shared<const Impl>(id, network)) {}
+Domain::Domain(std::uint32_t id, const std::string& network, const std::string& security_folder)
+    : impl_(std::make_shared<const Impl>(id, network, security_folder)) {}
 
 std::int32_t Domain::participant() const noexcept { return impl_->participant(); }
+const std::optional<Identity>& Domain::identity() const noexcept { return impl_->identity(); }
 
 }  // namespace gyrod::bus

@@ -7,6 +7,7 @@
 #include <dds/dds.h>
 
 #include "bus/bus_error.hpp"
+#include "bus/security_error.hpp"
 
 namespace gyrod::bus {
 
@@ -15,8 +16,10 @@ class Entity {
  public:
   Entity() = default;
   /// Takes over what a dds_create_ function returned.
-  /// @throws BusError if that is an error code
+  /// @throws BusError if that is an error code; SecurityError if our permissions forbid it
   Entity(dds_entity_t created, const std::string& attempt) : handle_(created) {
+    if (created == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+      throw SecurityError("not allowed to " + attempt + "; expected permissions.p7s to have a rule for it");
     if (created < 0) throw BusError(attempt, created);
   }
   ~Entity() { reset(); }

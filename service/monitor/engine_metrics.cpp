@@ -99,6 +99,15 @@ void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Familie
       "ROS 2 topics that match a pattern and were not opened.", bus.ros2_refused_topics);
   add(families, kCounter, "gyrod_ros2_dropped_messages_total",
       "ROS 2 messages lost for want of a place to wait for their denoised rates.", bus.ros2_dropped_messages);
+  if (bus.certificate_expiry_s) {
+    families.push_back(single("gyrod_bus_certificate_expiry_timestamp_seconds",
+                              "When the first certificate of DDS Security in use ends, since the Unix epoch.",
+                              kGauge, *bus.certificate_expiry_s));
+  }
+  if (bus.refused_peers) {
+    add(families, kCounter, "gyrod_bus_refused_peers_total", "Programs that DDS Security kept out.",
+        *bus.refused_peers);
+  }
 }
 
 void add_process_metrics(const std::string& version, double start_time_s, double uptime_s,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct BusSnapshot {
   std::size_t ros2_topics = 0;     ///< ROS 2 topics that are open
   std::uint64_t ros2_refused_topics = 0;    ///< that matched a pattern and were not opened
   std::uint64_t ros2_dropped_messages = 0;  ///< ROS 2 messages without a place to wait for their rates
+  /// With DDS Security: when the first certificate in use ends, s since 1970.
+  std::optional<double> certificate_expiry_s = {};
+  std::optional<std::uint64_t> refused_peers = {};  ///< with DDS Security: programs that were not let in
 };
 
 /// Whether work can be done now.

@@ -30,6 +30,8 @@ void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.ros2.output_reliability", bus.ros2.output_reliability);
   visit("bus.ros2.history_depth", bus.ros2.history_depth);
   visit("bus.ros2.max_topics", bus.ros2.max_topics);
+  visit("bus.security.folder", bus.security.folder);
+  visit("bus.security.warn_before_days", bus.security.warn_before_days);
 }
 
 template <class Visit>

@@ -82,6 +82,8 @@ Outcome read_settings(std::string_view text, const fs::path& directory) {
   sort_by_position(document, outcome.issues);
   const fs::path network = network_file(outcome.settings.bus, directory);
   if (!network.empty()) outcome.settings.bus.network = network.string();
+  std::string& security_folder = outcome.settings.bus.security.folder;
+  security_folder = resolved(security_folder, directory).string();
   NoiseSettings& noise = outcome.settings.noise;
   noise.calibrations = resolved(noise.calibrations, directory).string();
   noise.state_file = resolved(noise.state_file, directory).string();

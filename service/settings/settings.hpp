@@ -59,6 +59,12 @@ struct Ros2Settings {
   std::size_t max_topics = 64;
 };
 
+struct SecuritySettings {
+  /// Folder of certificates, key and permissions (made absolute by loading); empty: no DDS Security.
+  std::string folder;
+  std::uint32_t warn_before_days = 30;
+};
+
 struct BusSettings {
   std::uint32_t domain = 0;
   /// "loopback", "default", or the path of a Cyclone DDS XML file (made absolute by loading).
@@ -68,6 +74,7 @@ struct BusSettings {
   InputSettings input;
   OutputSettings output;
   Ros2Settings ros2;
+  SecuritySettings security;
 };
 
 /// What the algorithm is told; window, hop, lag and sample rate of the group `denoise` are in

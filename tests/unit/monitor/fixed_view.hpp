@@ -101,7 +101,9 @@ inline Shown busy_gyrod() {
                .write_errors = 23,
                .ros2_topics = 24,
                .ros2_refused_topics = 25,
-               .ros2_dropped_messages = 26};
+               .ros2_dropped_messages = 26,
+               .certificate_expiry_s = 1.8e9,
+               .refused_peers = 27};
   return shown;
 }
 

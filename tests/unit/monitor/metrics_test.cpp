@@ -85,6 +85,8 @@ TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
                                                   {"gyrod_ros2_topics", 24},
                                                   {"gyrod_ros2_refused_topics_total", 25},
                                                   {"gyrod_ros2_dropped_messages_total", 26},
+                                                  {"gyrod_bus_certificate_expiry_timestamp_seconds", 1.8e9},
+                                                  {"gyrod_bus_refused_peers_total", 27},
                                                   {"gyrod_uptime_seconds", 42.5},
                                                   {"process_start_time_seconds", 1.7e9}};
   for (const auto& [name, value] : expected) EXPECT_EQ(value_of(families, name), value) << name;
