@@ -50,6 +50,10 @@ std::string_view in_words(std::string_view message) noexcept {
 
 /// To the handler, repeated ones once a minute. @pre handler_mutex is held
 void hand_over(LogLevel level, std::string_view message) {
+  if (level == LogLevel::kInfo) {  // told only to who has asked for it
+    current_handler(level, message);
+    return;
+  }
   const std::optional<std::string> line = filter.pass(message, RepeatFilter::Clock::now());
   if (!line) return;
   const std::string_view words = in_words(message);

@@ -14,7 +14,7 @@ using LogHandler = std::function<void(LogLevel, std::string_view message)>;
 
 /// Leads the messages of Cyclone DDS to `handler`, for the whole process. Call it before the first Domain is
 /// made, and with an empty handler before what it refers to dies; without a handler messages go to standard
-/// error. A message that repeats comes once a minute, with how often; one of DDS Security about a peer begins with what it means.
+/// error. A warning or error that repeats comes once a minute, with how often; one of DDS Security about a peer begins with what it means.
 void set_log_handler(LogHandler handler);
 
 /// While it lives, also keeps the warnings and errors that this thread causes: the reason behind a failed

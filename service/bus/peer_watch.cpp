@@ -7,6 +7,7 @@
 
 #include "bus/entity.hpp"
 #include "bus/loan.hpp"
+#include "bus/repeat_filter.hpp"
 
 namespace gyrod::bus {
 namespace {
@@ -62,11 +63,12 @@ class PeerWatch::Impl {
     for (auto& [key, peer] : peers_) {
       if (peer.settled || now - peer.since < kPatience) continue;
       peer.settled = true;
-      tell(lines, "a peer at " + peer.address + " has shown no topic for " +
-                      std::to_string(kPatience.count()) +
-                      " s: one of the two sides refuses the other's certificate, permissions or governance, "
-                      "or it has no topic; "
-                      "its own log may say why");
+      tell(lines,
+           "a peer at " + peer.address + " has shown no topic for " + std::to_string(kPatience.count()) +
+               " s: one of the two sides refuses the other's certificate, permissions or governance, "
+               "or it has no topic; "
+               "its own log may say why",
+           now);
     }
     return lines;
   }
@@ -101,9 +103,11 @@ class PeerWatch::Impl {
     Peer& peer = peers_[key];
     peer = {now, property(participant, "__NetworkAddresses"), !has_identity(key)};
     if (has_identity(key)) return;
-    tell(lines, "a peer without DDS Security is kept out: process '" +
-                    property(participant, "__ProcessName") + "', pid " + property(participant, "__Pid") +
-                    ", host '" + property(participant, "__Hostname") + "', at " + peer.address);
+    tell(lines,
+         "a peer without DDS Security is kept out: process '" + property(participant, "__ProcessName") +
+             "', pid " + property(participant, "__Pid") + ", host '" + property(participant, "__Hostname") +
+             "', at " + peer.address,
+         now);
   }
 
   /// Whoever has told us of a topic is let in.
@@ -119,8 +123,8 @@ class PeerWatch::Impl {
     }
   }
 
-  void tell(std::vector<std::string>& lines, std::string line) {
-    lines.push_back(std::move(line));
+  void tell(std::vector<std::string>& lines, const std::string& line, Clock::time_point now) {
+    if (auto passed = filter_.pass(line, now)) lines.push_back(std::move(*passed));
     refused_.fetch_add(1, std::memory_order_relaxed);
   }
 
@@ -130,6 +134,7 @@ class PeerWatch::Impl {
   Entity readers_;
   Key own_{};
   std::map<Key, Peer> peers_;
+  RepeatFilter filter_;  // who makes up participants must not fill the log
   std::atomic<std::uint64_t> refused_{0};
 };
 
