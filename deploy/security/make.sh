@@ -95,10 +95,16 @@ key_for() {  # FILE: a P-256 key, unless there is one
   mv "$work/key.pem" "$1"
 }
 
-# The subject as DDS Security compares it: RFC 2253.
-subject_of() { openssl x509 -in "$1" -noout -subject -nameopt RFC2253 | sed 's/^subject=//'; }
-# The time of a certificate's field, as XML has it.
-time_of() { date -u -d "$(openssl x509 -in "$1" -noout "$2" | cut -d= -f2)" +%Y-%m-%dT%H:%M:%SZ; }
+describe() {  # FILE: sets subject, as DDS Security compares it (RFC 2253), not_before and not_after, as XML has them
+  local line
+  while IFS= read -r line; do
+    case "$line" in
+      subject=*) subject=${line#*=} ;;
+      notBefore=*) not_before=$(date -u -d "${line#*=}" +%Y-%m-%dT%H:%M:%SZ) ;;
+      notAfter=*) not_after=$(date -u -d "${line#*=}" +%Y-%m-%dT%H:%M:%SZ) ;;
+    esac
+  done < <(openssl x509 -in "$1" -noout -subject -startdate -enddate -nameopt RFC2253)
+}
 
 make_authority() {
   key_for "$ca/key.pem"
@@ -136,7 +142,7 @@ basicConstraints = critical, CA:false
 keyUsage = critical, digitalSignature
 END
   openssl req -new -config "$work/program.cnf" -key "$own/key.pem" -sha256 -out "$work/request.pem"
-  openssl x509 -req -in "$work/request.pem" -CA "$ca/cert.pem" -CAkey "$ca/key.pem" -set_serial "0x$(openssl rand -hex 16)" \
+  openssl x509 -req -in "$work/request.pem" -CA "$ca/cert.pem" -CAkey "$ca/key.pem" -set_serial "0x$(od -An -N16 -tx1 /dev/urandom | tr -d ' \n')" \
     -extfile "$work/program.cnf" -extensions extensions -sha256 -days "$days" -out "$work/cert.pem" 2>/dev/null
   mv "$work/cert.pem" "$own/cert.pem"
 }
@@ -163,12 +169,13 @@ for program in "${programs[@]}"; do
   name=${program%%=*} own=$folder/${program%%=*}
   mkdir -p "$own"
   make_certificate "$name"
-  fill "$templates/permissions-${program#*=}.xml" "SUBJECT=$(subject_of "$own/cert.pem")" "DOMAINS=$domain_set" \
-    "NOT_BEFORE=$(time_of "$own/cert.pem" -startdate)" "NOT_AFTER=$(time_of "$own/cert.pem" -enddate)" >"$work/permissions.xml"
+  describe "$own/cert.pem"
+  fill "$templates/permissions-${program#*=}.xml" "SUBJECT=$subject" "DOMAINS=$domain_set" \
+    "NOT_BEFORE=$not_before" "NOT_AFTER=$not_after" >"$work/permissions.xml"
   sign "$work/permissions.xml" "$own/permissions.p7s"
   cp "$ca/governance.p7s" "$own/governance.p7s"
   cp "$ca/cert.pem" "$own/identity_ca.cert.pem"
   cp "$ca/cert.pem" "$own/permissions_ca.cert.pem"
   if [ -s "$ca/crl.pem" ]; then cp "$ca/crl.pem" "$own/crl.pem"; else rm -f "$own/crl.pem"; fi
-  echo "$own: $(subject_of "$own/cert.pem"), ${program#*=}, domains $domains, until $(time_of "$own/cert.pem" -enddate)"
+  echo "$own: $subject, ${program#*=}, domains $domains, until $not_after"
 done

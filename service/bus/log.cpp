@@ -28,7 +28,7 @@ LogLevel level_of(std::uint32_t priority) noexcept {
 
 /// What a message of DDS Security about a peer comes down to; empty for any other message.
 std::string_view in_words(std::string_view message) noexcept {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kWords = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kWords = {
       {{"unable to get local issuer",
         "a peer is refused: its certificate is not signed by our identity authority"},
        {"certificate has expired", "a peer is refused: its certificate has expired"},
@@ -41,6 +41,8 @@ std::string_view in_words(std::string_view message) noexcept {
         "a peer or topic is refused: its governance protects the domain in another way than ours"},
        {"dds_participant_delete: internal error",
         "our participant had gone before, most likely with its certificate"},
+       {"Remote secure participant",
+        "a peer is not let in; one that comes while gyrod itself is joining is tried again at once"},
        {"Access control does not allow", "a peer's topic is refused: its permissions have no rule for it"}}};
   for (const auto& [part, words] : kWords) {
     if (message.find(part) != std::string_view::npos) return words;
