@@ -50,16 +50,21 @@ std::string_view in_words(std::string_view message) noexcept {
   return {};
 }
 
-/// To the handler, repeated ones once a minute. @pre handler_mutex is held
+/// To the handler or standard error. @pre handler_mutex is held
 void hand_over(LogLevel level, std::string_view message) {
-  if (level == LogLevel::kInfo) {  // told only to who has asked for it
+  if (current_handler) {
     current_handler(level, message);
-    return;
+  } else {
+    std::fprintf(stderr, "cyclonedds: %.*s\n", static_cast<int>(message.size()), message.data());
   }
+}
+
+/// The same, of repeated ones one a minute, and in words. @pre handler_mutex is held
+void hand_over_trouble(LogLevel level, std::string_view message) {
   const std::optional<std::string> line = filter.pass(message, RepeatFilter::Clock::now());
   if (!line) return;
   const std::string_view words = in_words(message);
-  current_handler(level, words.empty() ? *line : std::string(words) + ": " + *line);
+  hand_over(level, words.empty() ? *line : std::string(words) + ": " + *line);
 }
 
 void on_message(void*, const dds_log_data_t* data) {
@@ -71,10 +76,10 @@ void on_message(void*, const dds_log_data_t* data) {
     *captured += message;
   }
   const std::lock_guard lock(handler_mutex);
-  if (current_handler) {
+  if (level == LogLevel::kInfo) {  // told only to who has asked for it
     hand_over(level, message);
   } else {
-    std::fprintf(stderr, "cyclonedds: %.*s\n", static_cast<int>(message.size()), message.data());
+    hand_over_trouble(level, message);
   }
 }
 
