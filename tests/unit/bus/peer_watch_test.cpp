@@ -33,6 +33,12 @@ constexpr std::uint32_t kPeerDomain = 75;
 /// The id that both show on the wire: one of 220..230, which no other test uses, so that two runs on a machine hardly ever meet.
 std::uint32_t wire() { return 220 + static_cast<std::uint32_t>(getpid()) % 11; }
 
+/// For readers whose samples do not matter.
+struct Ignore final : SampleHandler {
+  void on_samples(std::string_view, std::span<const stream::Sample>) noexcept override {}
+  void on_end(std::string_view) noexcept override {}
+};
+
 class PeerWatchTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { made_ = std::make_unique<SecurityFolder>(); }
@@ -84,10 +90,7 @@ TEST_F(PeerWatchTest, APeerWithoutSecurityIsToldAtOnceAndOnce) {
 TEST_F(PeerWatchTest, APeerThatIsLetInIsNotTold) {
   const Domain own = join(kOwnDomain, made_->of("gyrod"));
   PeerWatch watch(own);
-  struct Ignore final : SampleHandler {
-    void on_samples(std::string_view, std::span<const stream::Sample>) noexcept override {}
-    void on_end(std::string_view) noexcept override {}
-  } handler;
+  Ignore handler;
   const BusOptions options;
   const Subscriber reader(own, options, handler);
   RawWriter peer(join(kPeerDomain, made_->of("sensor")), options, 1);
@@ -113,6 +116,21 @@ TEST_F(PeerWatchTest, APeerOfAnotherAuthorityIsToldAfterAWhile) {
   }));
   EXPECT_THAT(lines, ElementsAre(AllOf(HasSubstr("127.0.0.1"), HasSubstr("shown no topic for 10 s"))));
   EXPECT_EQ(watch.refused(), 1U);
+}
+
+TEST_F(PeerWatchTest, WhoseCertificateEndsIsGoneForOthersAndCanStillWriteAndLeave) {
+  const std::string ending = made_->copy("sensor", "ending");
+  made_->reissue(ending, -std::chrono::hours(1), std::chrono::seconds(8));
+  const Domain own = join(kOwnDomain, made_->of("gyrod"));
+  Ignore handler;
+  const BusOptions options;
+  const Subscriber reader(own, options, handler);
+  RawWriter peer(join(kPeerDomain, ending), options, 1);
+  ASSERT_TRUE(peer.wait_for_subscriber(std::chrono::seconds{60}));
+  ASSERT_TRUE(eventually([&] { return reader.matched_writers() == 1; }));
+  ASSERT_TRUE(eventually([&] { return reader.matched_writers() == 0; }));
+  const stream::Sample sample{};
+  EXPECT_EQ(peer.publish("imu", {&sample, 1}), 1U) << "nobody tells the writer";
 }
 
 TEST_F(PeerWatchTest, ADomainSaysWhoItIsAndOtherFilesForItAreRefusedInTheProcess) {
