@@ -255,8 +255,8 @@ TEST_F(Security, EverySubcommandSaysWhatIsWrongWithAFileBeforeItJoins) {
 
 TEST_F(Security, ASensorWhoseCertificateEndsIsGoneAtThatMoment) {
   const std::string folder = made_->copy("sensor", "ending");
-  made_->reissue(folder, -std::chrono::hours(1), std::chrono::seconds(10));
   const auto daemon = start_secured();
+  made_->reissue(folder, -std::chrono::hours(1), std::chrono::seconds(10));
   const auto sensor = start({"simulate", "--config", path(kPlain), "--security", folder});
   ASSERT_TRUE(eventually([&] { return count(*daemon, "gyrod_bus_matched_writers") == 1.0; }))
       << sensor->err();
