@@ -50,12 +50,12 @@ stream::StandstillOptions NoiseSources::options_of(std::string_view sensor, doub
 std::unique_ptr<stream::NoiseLearner> NoiseSources::learner_of(std::string_view sensor,
                                                                double sample_rate_hz) {
   stream::StandstillOptions options = options_of(sensor, sample_rate_hz);
-  core::StandstillState* slot = nullptr;
+  stream::RememberedNoise* slot = nullptr;
   {
     const std::lock_guard lock(mutex_);
     slot = &learned_.try_emplace(std::string(sensor)).first->second;
   }
-  options.on_learned = [this, slot](const core::StandstillState& state) {
+  options.on_learned = [this, slot](const stream::RememberedNoise& state) {
     const std::lock_guard lock(mutex_);
     *slot = state;
     ++revision_;

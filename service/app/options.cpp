@@ -38,6 +38,7 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
                     .denoised = settings.topics.denoised,
                     .denoised_batch = settings.topics.denoised_batch,
                     .noise = settings.topics.noise,
+                    .health = settings.topics.health,
                     .realtime = settings.topics.realtime,
                     .realtime_batch = settings.topics.realtime_batch};
   options.input_reliability = reliability(settings.input.reliability);

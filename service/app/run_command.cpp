@@ -93,10 +93,10 @@ void announce(const settings::Settings& settings, const Service& service) {
                settings.bus.network, service.workers());
   announce_security(service.identity());
   const bool realtime = is_model_method(settings.denoise);
-  spdlog::info("reads {} and {}, writes {}, {}{} and {}", topics.raw, topics.raw_batch, topics.denoised,
+  spdlog::info("reads {} and {}, writes {}, {}{}, {} and {}", topics.raw, topics.raw_batch, topics.denoised,
                topics.denoised_batch,
-               realtime ? ", " + topics.realtime + ", " + topics.realtime_batch : std::string{},
-               topics.noise);
+               realtime ? ", " + topics.realtime + ", " + topics.realtime_batch : std::string{}, topics.noise,
+               topics.health);
   announce_ros2(settings);
   spdlog::info("method {}; noise: {}, {} calibrations, {} sensors remembered",
                settings::name_of(settings.denoise.method), settings::name_of(settings.noise.source),
@@ -133,6 +133,7 @@ void serve(Service& service, SecurityLog& security, Interrupt& interrupt) {
   while (!interrupt.wait_for(kTick)) {
     (void)sd_notify(0, "WATCHDOG=1");
     service.tend();
+    service.judge();
     status.tick(service.snapshot(), service.matched_writers());
     security.tick(service);
     if (++ticks % kTicksPerSave == 0) service.keep_noise();

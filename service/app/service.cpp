@@ -13,6 +13,21 @@ namespace {
 /// How long readers may take in all to confirm what a stop releases.
 constexpr std::chrono::seconds kLastWord{5};
 
+/// One line a sensor, also where axes change one by one; warming up is told by metrics alone.
+void log_health(std::string_view sensor, const stream::SensorHealth& before,
+                const stream::SensorHealth& now) noexcept {
+  if (before.state == now.state) return;
+  const bool troubled = now.state > stream::Health::kWarmingUp;
+  const bool was_troubled = before.state > stream::Health::kWarmingUp;
+  if (!troubled && !was_troubled) return;
+  const auto worst = std::ranges::find(now.axis, now.state, &stream::AxisHealth::state);
+  spdlog::log(troubled ? spdlog::level::warn : spdlog::level::info,
+              "{} is {}, before {} (axis {}, {:.4g} against {:.4g})", sensor, stream::name_of(now.state),
+              stream::name_of(before.state),
+              stream::kAxisNames[static_cast<std::size_t>(worst - now.axis.begin())], worst->value,
+              worst->limit);
+}
+
 /// Time for readers to take one cache of messages: 50 000 samples a second at the default depth.
 constexpr std::chrono::milliseconds kBreath{20};
 
@@ -47,6 +62,16 @@ void ReleaseToBus::on_report(std::string_view sensor, const stream::NoiseReport&
   publisher_.publish_report(sensor, report);
 }
 void ReleaseToBus::on_end(std::string_view sensor) noexcept { publisher_.unregister_sensor(sensor); }
+
+void ReleaseToBus::on_health(std::string_view sensor, const stream::SensorHealth& before,
+                             const stream::SensorHealth& now) noexcept {
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  publisher_.publish_health(sensor, before, now,
+                            std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count());
+  log_health(sensor, before, now);
+}
+
+void ReleaseToBus::on_forgotten(std::string_view sensor) noexcept { publisher_.unregister_health(sensor); }
 
 /// Before so many more samples: gives readers the time to take or to ask again for what the writers are about
 /// to let go. Their confirmation is asked for by a timer of the middleware, not at once, so it is not waited

@@ -42,6 +42,9 @@ class ReleaseToBus final : public stream::Sink {
                    std::span<const stream::DenoisedSample> samples) noexcept override;
   void on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept override;
   void on_end(std::string_view sensor) noexcept override;
+  void on_health(std::string_view sensor, const stream::SensorHealth& before,
+                 const stream::SensorHealth& now) noexcept override;
+  void on_forgotten(std::string_view sensor) noexcept override;
 
  private:
   template <class Publish>
@@ -78,6 +81,11 @@ class Service {
   [[nodiscard]] const std::optional<bus::Identity>& identity() const noexcept { return domain_.identity(); }
   /// What is to be logged of programs that DDS Security keeps out (bus::PeerWatch::look): to be called about once a second.
   [[nodiscard]] std::vector<std::string> look_at_peers();
+  /// What a sensor's health and its Allan curve say (stream::Engine): to be called after tend().
+  void judge() {
+    engine_.judge_health();
+    engine_.fit_curves();
+  }
   /// Writes the noise state file if anything has been learned since the last time.
   void keep_noise();
   [[nodiscard]] const NoiseSources& noise() const noexcept { return noise_; }

@@ -29,6 +29,7 @@ struct TopicNames {
   std::string denoised = "gyro/denoised";              ///< out: DenoisedSample
   std::string denoised_batch = "gyro/denoised_batch";  ///< out: DenoisedBatch
   std::string noise = "gyro/noise";                    ///< out: NoiseReport
+  std::string health = "gyro/health";                  ///< out: HealthReport
   std::string realtime = "gyro/realtime";              ///< out, see BusOptions::realtime: DenoisedSample
   std::string realtime_batch = "gyro/realtime_batch";  ///< out, see BusOptions::realtime: DenoisedBatch
 };

@@ -29,7 +29,8 @@ class Publisher::Impl {
       : domain_(domain),
         max_batch_samples_(options.max_batch_samples),
         denoised_(domain, options.topics.denoised, options.topics.denoised_batch, options),
-        reports_(domain.participant(), options.topics.noise, report_writer_qos(options)) {
+        reports_(domain.participant(), options.topics.noise, report_writer_qos(options)),
+        health_(domain.participant(), options.topics.health, report_writer_qos(options)) {
     if (options.realtime)
       realtime_.emplace(domain, options.topics.realtime, options.topics.realtime_batch, options);
   }
@@ -52,6 +53,17 @@ class Publisher::Impl {
     reports_.flush();
   }
 
+  void publish_health(std::string_view sensor, const stream::SensorHealth& before,
+                      const stream::SensorHealth& now, std::int64_t stamp_ns) noexcept {
+    gyrod_HealthReport message;
+    set_sensor(message, sensor);
+    to_wire(before, now, stamp_ns, message);
+    count(health_.write(message));
+    health_.flush();
+  }
+
+  void unregister_health(std::string_view sensor) noexcept { count(health_.end(sensor)); }
+
   void unregister_sensor(std::string_view sensor) noexcept {
     end(denoised_, sensor);
     if (realtime_) end(*realtime_, sensor);
@@ -67,7 +79,8 @@ class Publisher::Impl {
     const auto both_confirmed = [&confirmed](const Topics& topics) {
       return confirmed(topics.singles) && confirmed(topics.batches);
     };
-    return both_confirmed(denoised_) && (!realtime_ || both_confirmed(*realtime_)) && confirmed(reports_);
+    return both_confirmed(denoised_) && (!realtime_ || both_confirmed(*realtime_)) && confirmed(reports_) &&
+           confirmed(health_);
   }
 
   [[nodiscard]] std::uint64_t write_errors() const noexcept {
@@ -132,6 +145,7 @@ class Publisher::Impl {
   Topics denoised_;
   std::optional<Topics> realtime_;
   TopicWriter<gyrod_NoiseReport> reports_;
+  TopicWriter<gyrod_HealthReport> health_;
   std::atomic<std::uint64_t> write_errors_{0};
 };
 
@@ -153,6 +167,13 @@ void Publisher::publish_realtime(std::string_view sensor,
 void Publisher::publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
   impl_->publish_report(sensor, report);
 }
+
+void Publisher::publish_health(std::string_view sensor, const stream::SensorHealth& before,
+                               const stream::SensorHealth& now, std::int64_t stamp_ns) noexcept {
+  impl_->publish_health(sensor, before, now, stamp_ns);
+}
+
+void Publisher::unregister_health(std::string_view sensor) noexcept { impl_->unregister_health(sensor); }
 
 void Publisher::unregister_sensor(std::string_view sensor) noexcept { impl_->unregister_sensor(sensor); }
 

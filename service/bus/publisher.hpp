@@ -9,6 +9,7 @@
 
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
+#include "stream/health.hpp"
 #include "stream/report.hpp"
 #include "stream/sample.hpp"
 
@@ -37,6 +38,14 @@ class Publisher {
 
   /// Writes the report, also without a reader: a later one gets the newest. @pre fits_wire(sensor)
   void publish_report(std::string_view sensor, const stream::NoiseReport& report) noexcept;
+
+  /// Writes a change of health, also without a reader: a later one gets the newest. @pre fits_wire(sensor)
+  /// @param stamp_ns when, ns since the epoch
+  void publish_health(std::string_view sensor, const stream::SensorHealth& before,
+                      const stream::SensorHealth& now, std::int64_t stamp_ns) noexcept;
+
+  /// The sensor is forgotten: its health, too. @pre fits_wire(sensor)
+  void unregister_health(std::string_view sensor) noexcept;
 
   /// The sensor has ended: readers are told after what was published before, and what the writers keep of it
   /// is let go.

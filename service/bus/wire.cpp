@@ -66,4 +66,17 @@ void to_wire(const stream::NoiseReport& report, ImfReports& imfs, gyrod_NoiseRep
   }
 }
 
+void to_wire(const stream::SensorHealth& before, const stream::SensorHealth& now, std::int64_t stamp_ns,
+             gyrod_HealthReport& wire) noexcept {
+  wire.stamp_ns = stamp_ns;
+  wire.state = static_cast<std::uint32_t>(now.state);
+  wire.previous_state = static_cast<std::uint32_t>(before.state);
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+    wire.axis[axis] = {.state = static_cast<std::uint32_t>(now.axis[axis].state),
+                       .previous_state = static_cast<std::uint32_t>(before.axis[axis].state),
+                       .value = now.axis[axis].value,
+                       .limit = now.axis[axis].limit};
+  }
+}
+
 }  // namespace gyrod::bus

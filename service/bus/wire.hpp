@@ -11,6 +11,7 @@
 
 #include "bus/bus_options.hpp"
 #include "core/denoise/window_report.hpp"
+#include "stream/health.hpp"
 #include "stream/report.hpp"
 #include "stream/sample.hpp"
 
@@ -28,6 +29,15 @@ static_assert(gyrod_NOISE_SOURCE_CALIBRATED == static_cast<int>(stream::NoiseSou
 static_assert(gyrod_IMF_NOISE == static_cast<int>(core::ImfClass::kNoise));
 static_assert(gyrod_IMF_MIXED == static_cast<int>(core::ImfClass::kMixed));
 static_assert(gyrod_IMF_SIGNAL == static_cast<int>(core::ImfClass::kSignal));
+static_assert(gyrod_HEALTH_OK == static_cast<int>(stream::Health::kOk));
+static_assert(gyrod_HEALTH_WARMING_UP == static_cast<int>(stream::Health::kWarmingUp));
+static_assert(gyrod_HEALTH_DEGRADED == static_cast<int>(stream::Health::kDegraded));
+static_assert(gyrod_HEALTH_LOSSY == static_cast<int>(stream::Health::kLossy));
+static_assert(gyrod_HEALTH_DRIFTING == static_cast<int>(stream::Health::kDrifting));
+static_assert(gyrod_HEALTH_NOISY == static_cast<int>(stream::Health::kNoisy));
+static_assert(gyrod_HEALTH_SATURATED == static_cast<int>(stream::Health::kSaturated));
+static_assert(gyrod_HEALTH_STUCK == static_cast<int>(stream::Health::kStuck));
+static_assert(gyrod_HEALTH_SILENT == static_cast<int>(stream::Health::kSilent));
 static_assert(sizeof(gyrod_GyroSample::sensor) == kMaxSensorIdLength + 1);
 
 /// Writes the key of a message. @pre fits_wire(sensor)
@@ -107,5 +117,9 @@ using ImfReports = std::array<std::array<gyrod_ImfReport, core::kMaxImfs>, strea
 /// Fills all but the key. The message's sequences point into `imfs` and `report`, which have to outlive its
 /// use.
 void to_wire(const stream::NoiseReport& report, ImfReports& imfs, gyrod_NoiseReport& wire) noexcept;
+
+/// Fills all but the key.
+void to_wire(const stream::SensorHealth& before, const stream::SensorHealth& now, std::int64_t stamp_ns,
+             gyrod_HealthReport& wire) noexcept;
 
 }  // namespace gyrod::bus

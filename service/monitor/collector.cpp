@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "monitor/engine_metrics.hpp"
+#include "monitor/health_metrics.hpp"
 #include "monitor/sensor_metrics.hpp"
 
 namespace gyrod::monitor {
@@ -19,7 +20,10 @@ std::vector<prometheus::MetricFamily> Collector::Collect() const {
   add_process_metrics(options_.version, options_.start_time_s, options_.uptime_s(), families);
   add_bus_metrics(view_.bus(), view_.readiness(), families);
   add_engine_metrics(engine, families);
-  add_sensor_metrics(view_.channels(options_.max_channel_series), engine.channels, families);
+  add_health_totals(engine, families);
+  const std::vector<stream::ChannelSnapshot> shown = view_.channels(options_.max_channel_series);
+  add_sensor_metrics(shown, engine.channels, families);
+  add_health_metrics(shown, families);
   return families;
 }
 

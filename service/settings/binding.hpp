@@ -16,6 +16,7 @@ void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.topics.denoised", bus.topics.denoised);
   visit("bus.topics.denoised_batch", bus.topics.denoised_batch);
   visit("bus.topics.noise", bus.topics.noise);
+  visit("bus.topics.health", bus.topics.health);
   visit("bus.topics.realtime", bus.topics.realtime);
   visit("bus.topics.realtime_batch", bus.topics.realtime_batch);
   visit("bus.input.reliability", bus.input.reliability);
@@ -60,11 +61,28 @@ void visit_algorithm(Settings& settings, Visit& visit) {
   visit("limits.forget_after_s", settings.engine.forget_after_s);
 }
 
+template <class Visit>
+void visit_health(stream::HealthOptions& health, Visit& visit) {
+  visit("health.silent_after_s", health.silent_after_s);
+  visit("health.stuck_after_s", health.stuck_after_s);
+  visit("health.all_stuck_after_s", health.all_stuck_after_s);
+  visit("health.range_radps", health.range_radps);
+  visit("health.saturated_hold_s", health.saturated_hold_s);
+  visit("health.noisy_ratio", health.noisy_ratio);
+  visit("health.noisy_clear_ratio", health.noisy_clear_ratio);
+  visit("health.noisy_after_s", health.noisy_after_s);
+  visit("health.drift_sigmas", health.drift_sigmas);
+  visit("health.lossy_share", health.lossy_share);
+  visit("health.lossy_clear_share", health.lossy_clear_share);
+  visit("health.loss_window_s", health.loss_window_s);
+}
+
 /// Calls visit(key, member) for every key of the configuration.
 template <class Visit>
 void for_each_key(Settings& settings, Visit&& visit) {
   visit_bus(settings.bus, visit);
   visit_algorithm(settings, visit);
+  visit_health(settings.engine.health, visit);
   visit("workers", settings.workers);
   visit("monitor.enabled", settings.monitor.enabled);
   visit("monitor.address", settings.monitor.address);

@@ -73,6 +73,25 @@ class CrossCheck {
             {"limits.silent_after_s"});
   }
 
+  /// A state is left no sooner than it is entered.
+  void check_health() {
+    const stream::HealthOptions& health = settings_.engine.health;
+    const auto words = [](double value) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%g", value);
+      return " (" + std::string(text) + ")";
+    };
+    require(health.all_stuck_after_s >= health.stuck_after_s, "health.all_stuck_after_s",
+            health.all_stuck_after_s, "at least health.stuck_after_s" + words(health.stuck_after_s),
+            {"health.stuck_after_s"});
+    require(health.noisy_clear_ratio <= health.noisy_ratio, "health.noisy_clear_ratio",
+            health.noisy_clear_ratio, "at most health.noisy_ratio" + words(health.noisy_ratio),
+            {"health.noisy_ratio"});
+    require(health.lossy_clear_share <= health.lossy_share, "health.lossy_clear_share",
+            health.lossy_clear_share, "at most health.lossy_share" + words(health.lossy_share),
+            {"health.lossy_share"});
+  }
+
   /// The scatter of white noise's energies is tabulated for one EMD (core/denoise/significance.hpp).
   void check_screening() {
     const DenoiseSettings& denoise = settings_.denoise;
@@ -85,12 +104,13 @@ class CrossCheck {
 
   void check_topics() {
     const TopicSettings& topics = settings_.bus.topics;
-    const std::array<std::pair<std::string, std::string>, 7> all = {
+    const std::array<std::pair<std::string, std::string>, 8> all = {
         {{"bus.topics.raw", topics.raw},
          {"bus.topics.raw_batch", topics.raw_batch},
          {"bus.topics.denoised", topics.denoised},
          {"bus.topics.denoised_batch", topics.denoised_batch},
          {"bus.topics.noise", topics.noise},
+         {"bus.topics.health", topics.health},
          {"bus.topics.realtime", topics.realtime},
          {"bus.topics.realtime_batch", topics.realtime_batch}}};
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -204,6 +224,7 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_method();
   check.check_sensors();
   check.check_silence();
+  check.check_health();
   check.check_screening();
   check.check_topics();
   check.check_ros2();

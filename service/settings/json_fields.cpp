@@ -93,12 +93,18 @@ void JsonFields::fail(std::string_view key, std::string_view expected) const {
 }
 
 json parse_versioned(const std::string& file, std::string_view text, const std::string& version_key,
-                     int version) {
+                     Versions versions) {
   Document document = parse_document(text);
   if (!document.issues.empty()) throw NoiseFileError(file + ": " + document.issues.front().message);
   const JsonFields root(file, document.root);
-  if (!root.has(version_key) || document.root[version_key] != version)
-    root.fail(version_key, std::to_string(version) + ", the version that this gyrod knows");
+  const json* version = root.has(version_key) ? &document.root[version_key] : nullptr;
+  const bool known = version != nullptr && version->is_number_integer() && *version >= versions.oldest &&
+                     *version <= versions.newest;
+  const std::string range =
+      versions.oldest == versions.newest
+          ? std::to_string(versions.newest) + ", the version"
+          : std::to_string(versions.oldest) + " to " + std::to_string(versions.newest) + ", the versions";
+  if (!known) root.fail(version_key, range + " that this gyrod knows");
   return std::move(document.root);
 }
 

@@ -49,10 +49,16 @@ class JsonFields {
   std::string prefix_;
 };
 
-/// Parses a document whose root is an object with `version_key`: `version`.
+/// Versions of a document that can be read; they write the newest.
+struct Versions {
+  int oldest;
+  int newest;
+};
+
+/// Parses a document whose root is an object with `version_key`: one of `versions`.
 /// @param file for messages
 /// @throws NoiseFileError for a syntax error, a repeated key, another root, another version
 [[nodiscard]] nlohmann::json parse_versioned(const std::string& file, std::string_view text,
-                                             const std::string& version_key, int version);
+                                             const std::string& version_key, Versions versions);
 
 }  // namespace gyrod::settings

@@ -117,7 +117,8 @@ std::string calibration_text(const NoiseCalibration& calibration) {
 }
 
 NoiseCalibration parse_calibration(const std::string& file, std::string_view text) {
-  const json document = parse_versioned(file, text, kCalibrationKey, kCalibrationVersion);
+  const json document =
+      parse_versioned(file, text, kCalibrationKey, {kCalibrationVersion, kCalibrationVersion});
   const JsonFields root(file, document);
   root.allow({kCalibrationKey, "sensor_id", "sample_rate_hz", "axes", "figures", "origin"});
   NoiseCalibration calibration;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "settings/noise_model_json.hpp"
 #include "stream/registry.hpp"
@@ -14,13 +16,58 @@ using nlohmann::json;
 using stream::kAxisNames;
 
 constexpr const char* kStateKey = "gyrod_noise_state";
-constexpr int kStateVersion = 1;
+/// 2 has Allan sums.
+constexpr int kStateVersion = 2;
+constexpr int kOldestVersion = 1;
 
 bool has_model(const core::StandstillState& state) {
   return std::ranges::any_of(state.models, core::is_usable);
 }
 
-json state_json(const core::StandstillState& state) {
+/// Octaves without a term are left out at the end: the lists are as long as the curve.
+json curve_json(const core::AllanSums& sums) {
+  const auto end = std::ranges::find(sums.terms, std::uint64_t{0});
+  const auto octaves = static_cast<std::size_t>(end - sums.terms.begin());
+  return {{"terms", std::vector(sums.terms.begin(), end)},
+          {"squares_rad2ps2", std::vector(sums.squares.begin(), sums.squares.begin() + octaves)}};
+}
+
+json curves_json(const stream::AllanCurves& curves) {
+  json axes = json::object();
+  for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
+    if (curves[a].terms[0] > 0) axes[kAxisNames[a]] = curve_json(curves[a]);
+  }
+  return axes;
+}
+
+core::AllanSums curve_of(const JsonFields& fields) {
+  fields.allow({"terms", "squares_rad2ps2"});
+  const auto terms = fields.numbers("terms", core::kAllanOctaves);
+  const auto squares = fields.numbers("squares_rad2ps2", core::kAllanOctaves);
+  core::AllanSums sums;
+  constexpr double kMostTerms = 1ULL << 53U;
+  for (const double count : terms) {
+    if (!(count >= 1.0 && count <= kMostTerms && count == std::floor(count)))
+      fields.fail("terms", "whole numbers of 1 and more");
+  }
+  if (squares.size() != terms.size()) fields.fail("squares_rad2ps2", "as many numbers as terms");
+  std::ranges::transform(terms, sums.terms.begin(),
+                         [](double count) { return static_cast<std::uint64_t>(count); });
+  std::ranges::copy(squares, sums.squares.begin());
+  if (!core::is_possible(sums)) fields.fail("terms", "fewer for longer clusters, and squares of 0 and more");
+  return sums;
+}
+
+stream::AllanCurves curves_of(const JsonFields& fields) {
+  fields.allow({"x", "y", "z"});
+  stream::AllanCurves curves{};
+  for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
+    if (fields.has(kAxisNames[a])) curves[a] = curve_of(fields.fields(kAxisNames[a]));
+  }
+  return curves;
+}
+
+json state_json(const stream::RememberedNoise& state) {
   json axes = json::object();
   for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
     if (core::is_usable(state.models[a])) axes[kAxisNames[a]] = model_json(state.models[a]);
@@ -30,12 +77,13 @@ json state_json(const core::StandstillState& state) {
           {"segments", state.segments},
           {"bias_radps", state.bias},
           {"bias_rest_s", state.bias_seconds},
-          {"axes", std::move(axes)}};
+          {"axes", std::move(axes)},
+          {"allan", curves_json(state.curves)}};
 }
 
-core::StandstillState state_of(const JsonFields& fields) {
-  fields.allow({"sample_rate_hz", "rest_s", "segments", "bias_radps", "bias_rest_s", "axes"});
-  core::StandstillState state;
+stream::RememberedNoise state_of(const JsonFields& fields) {
+  fields.allow({"sample_rate_hz", "rest_s", "segments", "bias_radps", "bias_rest_s", "axes", "allan"});
+  stream::RememberedNoise state;
   state.sample_rate_hz = fields.positive("sample_rate_hz");
   state.rest_seconds = fields.positive("rest_s");
   state.segments = fields.positive("segments");
@@ -49,6 +97,7 @@ core::StandstillState state_of(const JsonFields& fields) {
     if (axes.has(kAxisNames[a])) state.models[a] = model_of(axes.fields(kAxisNames[a]));
   }
   if (!has_model(state)) fields.fail("axes", "the noise of one axis at least");
+  if (fields.has("allan")) state.curves = curves_of(fields.fields("allan"));
   return state;
 }
 
@@ -64,7 +113,7 @@ std::string noise_state_text(const NoiseStates& states) {
 }
 
 NoiseStates parse_noise_state(const std::string& file, std::string_view text) {
-  const json root = parse_versioned(file, text, kStateKey, kStateVersion);
+  const json root = parse_versioned(file, text, kStateKey, {kOldestVersion, kStateVersion});
   const JsonFields fields(file, root);
   fields.allow({kStateKey, "sensors"});
   const JsonFields sensors = fields.fields("sensors");

@@ -5,15 +5,15 @@
 #include <string>
 #include <string_view>
 
-#include "core/noise/standstill_learner.hpp"
 #include "settings/json_fields.hpp"
+#include "stream/standstill_noise.hpp"
 
 namespace gyrod::settings {
 
 /// By sensor id.
-using NoiseStates = std::map<std::string, core::StandstillState, std::less<>>;
+using NoiseStates = std::map<std::string, stream::RememberedNoise, std::less<>>;
 
-/// JSON: {"gyrod_noise_state": 1, "sensors": {ID: {...}}}.
+/// JSON: {"gyrod_noise_state": 2, "sensors": {ID: {...}}}. Version 1, without Allan sums, is read too.
 /// @pre the states are such as StandstillLearner::state() gives once it has a model; others are left out
 [[nodiscard]] std::string noise_state_text(const NoiseStates& states);
 

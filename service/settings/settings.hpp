@@ -30,6 +30,7 @@ struct TopicSettings {
   std::string denoised = "gyro/denoised";
   std::string denoised_batch = "gyro/denoised_batch";
   std::string noise = "gyro/noise";
+  std::string health = "gyro/health";
   std::string realtime = "gyro/realtime";
   std::string realtime_batch = "gyro/realtime_batch";
 };
@@ -109,7 +110,7 @@ struct Settings {
   BusSettings bus;
   DenoiseSettings denoise;
   NoiseSettings noise;
-  /// From the groups `denoise` and `limits`. `engine.workers` is not a key of its own: see `workers`.
+  /// From the groups `denoise`, `limits` and `health`. `engine.workers` is not a key of its own: see `workers`.
   stream::EngineOptions engine;
   /// Worker threads; 0 asks for one per core. Whoever makes the Engine sets engine.workers from it.
   std::size_t workers = 0;

@@ -25,8 +25,10 @@ Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMe
     : gate({options.sample_rate_hz, options.max_rate_radps, options.max_bridged_samples}),
       schedule(schedule_options(options)),
       ring(most_held_samples(options)),
+      watch(options.health, options.window_samples),
       sensor_(std::move(sensor)),
-      jobs_(options.max_queued_windows) {
+      jobs_(options.max_queued_windows),
+      judge_(options.health, options.window_samples) {
   if (models != nullptr) fast_loop.emplace(*models, options.lag_samples);
   if (options.noise) noise = options.noise(sensor_);
   if (options.learner) learner = options.learner(sensor_);
@@ -35,12 +37,24 @@ Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMe
 
 void Channel::append(const Sample& sample, bool measured) {
   ring.append(sample, measured);
+  watch.step(sample, measured);
   if (!learner) return;
   learner->step(sample, measured, gate.rate_hz());
+  if (const RestEvidence* rest = learner->evidence()) take_block(*rest);
   if (const auto update = learner->update()) noise = *update;
 }
 
+void Channel::take_block(const RestEvidence& rest) {
+  watch.take_block(rest);
+  const std::lock_guard lock(mutex_);
+  curves_ = rest.curves;
+  curves_rate_hz_ = rest.sample_rate_hz;
+  bias_radps_ = rest.bias_radps;
+  bias_s_ = rest.bias_s;
+}
+
 void Channel::hear(double now_s) {
+  watch.hear(now_s, gate.rate_hz());
   heard_s_ = now_s;
   if (silent_) silent_ = false;
 }
@@ -49,6 +63,11 @@ void Channel::fall_silent() {
   silent_ = true;
   const std::lock_guard lock(mutex_);
   ++counts_.silences;
+}
+
+void Channel::show_health() {
+  const std::lock_guard lock(mutex_);
+  evidence_ = watch.evidence();
 }
 
 bool Channel::has_room() const {
@@ -191,6 +210,36 @@ bool Channel::idle() const {
   return !owned_ && !scheduled_ && job_count_ == 0;
 }
 
+Channel::Judgement Channel::judge_health(HealthContext context) {
+  const std::lock_guard lock(mutex_);
+  const bool widened = (last_report_.flags & static_cast<std::uint32_t>(SampleFlag::kHopWidened)) != 0;
+  context.overload_step = widened ? 1U : 0U;
+  if (pass_through_) context.overload_step = 2U;
+  const SensorHealth before = health_.value_or(SensorHealth{});
+  const SensorHealth now = judge_.judge(evidence_, context);
+  const auto differs = [&](std::size_t axis) { return before.axis[axis].state != now.axis[axis].state; };
+  const bool changed = !health_ || differs(0) || differs(1) || differs(2);
+  health_ = now;
+  return {before, now, changed};
+}
+
+std::optional<AllanCurves> Channel::curves_to_fit(double& sample_rate_hz) const {
+  constexpr std::uint64_t kFewestTerms = 1000;
+  const std::lock_guard lock(mutex_);
+  sample_rate_hz = curves_rate_hz_;
+  const std::uint64_t terms = curves_[0].terms[0];
+  const bool more = terms < fitted_terms_ || terms - fitted_terms_ > fitted_terms_ / 10;
+  if (!more || (terms < kFewestTerms && fitted_terms_ == 0)) return std::nullopt;
+  return curves_;
+}
+
+void Channel::keep_fit(const AllanCurves& fitted,
+                       const std::array<core::NoiseCoefficients, kAxes>& coefficients) {
+  const std::lock_guard lock(mutex_);
+  fitted_terms_ = fitted[0].terms[0];
+  coefficients_ = coefficients;
+}
+
 Counts Channel::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
@@ -198,7 +247,20 @@ Counts Channel::counts() const {
 
 ChannelSnapshot Channel::snapshot() const {
   const std::lock_guard lock(mutex_);
-  return {sensor_, counts_, last_report_, job_count_, hop_samples_, rate_hz_, pass_through_, silent_};
+  return {.sensor = sensor_,
+          .counts = counts_,
+          .last_report = last_report_,
+          .queued_windows = job_count_,
+          .hop_samples = hop_samples_,
+          .sample_rate_hz = rate_hz_,
+          .pass_through = pass_through_,
+          .silent = silent_,
+          .health = health_,
+          .curves = curves_,
+          .curves_rate_hz = curves_rate_hz_,
+          .bias_radps = bias_radps_,
+          .bias_s = bias_s_,
+          .coefficients = coefficients_};
 }
 
 }  // namespace gyrod::stream

@@ -14,6 +14,8 @@
 #include "stream/counters.hpp"
 #include "stream/engine.hpp"
 #include "stream/fast_loop.hpp"
+#include "stream/health_judge.hpp"
+#include "stream/health_watch.hpp"
 #include "stream/hop_schedule.hpp"
 #include "stream/sample_gate.hpp"
 #include "stream/sample_ring.hpp"
@@ -46,9 +48,12 @@ class Channel {
   bool asleep = false;
   ChannelNoise noise;                     ///< what windows are given from now on
   std::unique_ptr<NoiseLearner> learner;  ///< may be none
+  HealthWatch watch;
 
   /// Samples have come at this time of the engine's clock.
   void hear(double now_s);
+  /// Leaves a copy of what `watch` has seen for judge_health().
+  void show_health();
   /// Nothing has come for long: counts it, and what comes next begins a new window.
   void fall_silent();
   /// Engine time of the newest push.
@@ -86,6 +91,19 @@ class Channel {
   /// Models of this segment are ready for the fast loop.
   void offer_models(const ModelOrigin& origin);
 
+  // --- who judges health: one thread
+  // ------------------------------------------------------------------------------------------------
+  struct Judgement {
+    SensorHealth before;
+    SensorHealth now;
+    bool changed = false;
+  };
+  /// Judges what was shown last. @param context but for the overload step, which the channel knows
+  [[nodiscard]] Judgement judge_health(HealthContext context);
+  /// The curves, where they rest on a tenth more terms than those that were fitted last.
+  [[nodiscard]] std::optional<AllanCurves> curves_to_fit(double& sample_rate_hz) const;
+  void keep_fit(const AllanCurves& fitted, const std::array<core::NoiseCoefficients, kAxes>& coefficients);
+
   // --- any thread
   // ----------------------------------------------------------------------------------------------------
   /// Counts released samples.
@@ -103,6 +121,7 @@ class Channel {
   [[nodiscard]] ChannelSnapshot snapshot() const;
 
  private:
+  void take_block(const RestEvidence& rest);
   /// The channel has work, no owner and no place in the scheduler's queue: takes the place.
   [[nodiscard]] bool must_schedule();
 
@@ -122,6 +141,15 @@ class Channel {
   std::optional<ModelOrigin> offered_;
   std::uint32_t hop_samples_ = 0;
   double rate_hz_ = 0.0;
+  HealthEvidence evidence_;
+  HealthJudge judge_;  ///< the judge's alone
+  std::optional<SensorHealth> health_;
+  AllanCurves curves_{};
+  double curves_rate_hz_ = 0.0;
+  std::array<double, kAxes> bias_radps_{};
+  double bias_s_ = 0.0;
+  std::uint64_t fitted_terms_ = 0;
+  std::array<core::NoiseCoefficients, kAxes> coefficients_{};
 };
 
 }  // namespace gyrod::stream

@@ -7,11 +7,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/allan/noise_coefficients.hpp"
+#include "stream/health.hpp"
 #include "stream/report.hpp"
+#include "stream/rest_evidence.hpp"
 #include "stream/sample.hpp"
 
 namespace gyrod::stream {
@@ -75,8 +79,16 @@ struct ChannelSnapshot {
   std::size_t queued_windows = 0;
   std::uint32_t hop_samples = 0;
   double sample_rate_hz = 0.0;
-  bool pass_through = false;  ///< overload step 2 in force
-  bool silent = false;        ///< nothing has come for EngineOptions::silent_after_s
+  bool pass_through = false;                ///< overload step 2 in force
+  bool silent = false;                      ///< nothing has come for EngineOptions::silent_after_s
+  std::optional<SensorHealth> health = {};  ///< as of the last Engine::judge_health(); none before the first
+  /// At rest, since the sensor is known; no terms while nothing is.
+  AllanCurves curves{};
+  double curves_rate_hz = 0.0;
+  std::array<double, kAxes> bias_radps{};  ///< mean rate at rest, learned from bias_s
+  double bias_s = 0.0;                     ///< 0: not known
+  /// Of the curves, by Engine::fit_curves(): nothing observable before.
+  std::array<core::NoiseCoefficients, kAxes> coefficients{};
 };
 
 /// The engine as monitoring sees it at one moment. Counts obey promise 1 even while samples flow.
@@ -86,6 +98,8 @@ struct EngineSnapshot {
   std::size_t silent_channels = 0;       ///< see ChannelSnapshot::silent
   std::uint64_t forgotten_channels = 0;  ///< closed for good; their counts stay in `totals`
   std::size_t queued_windows = 0;        ///< over all channels
+  HealthCounts channels_by_health{};     ///< of those that were judged
+  HealthCounts health_changes{};  ///< times that a sensor was found in a state, newly or with other axes
   std::size_t workers = 0;
   std::size_t workers_busy = 0;
   TimeHistogram window_time;    ///< time a worker spent on one window of a sensor

@@ -177,6 +177,11 @@ EngineSnapshot Engine::Impl::snapshot() const {
     const std::lock_guard lock(idle_mutex_);
     snapshot.queued_windows = outstanding_;
   }
+  {
+    const std::lock_guard lock(health_mutex_);
+    snapshot.channels_by_health = by_health_;
+    snapshot.health_changes = health_changes_;
+  }
   snapshot.workers = options_.workers;
   snapshot.workers_busy = scheduler_ ? scheduler_->busy() : 0;
   for (const auto& bench : benches_) bench->add_times_to(snapshot);
@@ -198,6 +203,8 @@ std::size_t Engine::push(std::string_view sensor, std::span<const Sample> sample
 }
 void Engine::end_of_stream(std::string_view sensor) noexcept { impl_->end_of_stream(sensor); }
 void Engine::tend() noexcept { impl_->tend(); }
+void Engine::judge_health() { impl_->judge_health(); }
+void Engine::fit_curves() { impl_->fit_curves(); }
 void Engine::hurry_after(std::chrono::milliseconds deadline) noexcept { impl_->hurry_after(deadline); }
 bool Engine::stop(std::chrono::milliseconds deadline) { return impl_->stop(deadline); }
 void Engine::wait_idle() { impl_->wait_idle(); }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stream/counters.hpp"
+#include "stream/health.hpp"
 #include "stream/method.hpp"
 #include "stream/noise_learner.hpp"
 #include "stream/report.hpp"
@@ -36,6 +37,11 @@ class Sink {
   /// The sensor has ended (end_of_stream) or is forgotten (tend), after the last of its samples and reports. A stop alone ends no
   /// sensor.
   virtual void on_end(std::string_view sensor) noexcept = 0;
+  /// The state of an axis has changed, or is known for the first time (`before`: warming up). From judge_health().
+  virtual void on_health(std::string_view /*sensor*/, const SensorHealth& /*before*/,
+                         const SensorHealth& /*now*/) noexcept {}
+  /// The sensor's channel has closed for good: after on_end(), from tend().
+  virtual void on_forgotten(std::string_view /*sensor*/) noexcept {}
 };
 
 struct EngineOptions {
@@ -67,6 +73,8 @@ struct EngineOptions {
   /// A sensor that has sent nothing for so long, or ended so long ago, is forgotten: its channel closes, s. silent_after_s..31536000,
   /// or 0: never. See tend().
   double forget_after_s = 3600.0;
+  /// When a sensor is in which state.
+  HealthOptions health = {};
   /// What is known beforehand of a sensor's noise: asked once, when its channel opens. May be empty: nothing. May throw std::bad_alloc
   /// only, which refuses the channel.
   std::function<ChannelNoise(std::string_view sensor)> noise;
@@ -109,6 +117,14 @@ class Engine {
   ///   forgotten: the channel closes, and its memory is free for another. Its counts stay in the totals. If it comes back it is new, with
   ///              the noise that EngineOptions::noise knows by then.
   void tend() noexcept;
+
+  /// Says of every sensor how it is, by what was pushed until now: to be called about once a second, by the thread that calls tend();
+  /// others may push meanwhile.
+  void judge_health();
+
+  /// Fits the Allan curves of one sensor, at most, whose curves have grown by a tenth: some 30 ms of computing. By the thread that calls
+  /// tend(); others may push meanwhile.
+  void fit_curves();
 
   /// Releases all that is held, denoised while the deadline lasts and then passed through: nothing accepted
   /// is lost. After it every push is refused and counted.

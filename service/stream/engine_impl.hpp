@@ -29,6 +29,8 @@ class Engine::Impl {
   std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
   void end_of_stream(std::string_view sensor) noexcept;
   void tend() noexcept;
+  void judge_health();
+  void fit_curves();
   void hurry_after(std::chrono::milliseconds deadline) noexcept;
   bool stop(std::chrono::milliseconds deadline);
   void wait_idle();
@@ -40,6 +42,7 @@ class Engine::Impl {
   // Intake, in the thread that pushes (intake.cpp).
   [[nodiscard]] Channel* channel_for(std::string_view sensor, RejectReason& refusal);
   void refuse(std::size_t samples, RejectReason reason);
+  void listen_again();
   bool take(Channel& channel, const Sample& sample);
   void bridge(Channel& channel, const Sample& next, std::uint64_t count);
   void append(Channel& channel, const Sample& sample, bool measured);
@@ -69,6 +72,7 @@ class Engine::Impl {
   template <typename Condition>
   void wait_while(Channel& channel, const Condition& condition) {
     while (condition()) {
+      waits_ = true;
       const auto oldest = channel.oldest_submission();
       if (oldest && too_late(*oldest) && work(channel, *benches_.back(), false)) continue;
       flush(channel);
@@ -92,6 +96,14 @@ class Engine::Impl {
   mutable std::mutex idle_mutex_;
   std::condition_variable window_done_;
   std::size_t outstanding_ = 0;  ///< windows submitted and not done, behind idle_mutex_
+  // Whether gyrod itself listens: while push() waits, nobody is heard.
+  std::atomic<bool> waits_{false};
+  std::atomic<double> deaf_until_s_{0.0};
+  std::vector<Channel*> judged_;  ///< the judge's, kept for its memory
+  std::size_t next_to_fit_ = 0;   ///< the judge's
+  mutable std::mutex health_mutex_;
+  HealthCounts by_health_{};
+  HealthCounts health_changes_{};
   // What the fast loop has made in this call of push(), of the one sensor that is pushed.
   std::vector<DenoisedSample> outbox_;
   std::vector<DenoisedSample> realtime_outbox_;

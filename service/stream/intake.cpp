@@ -19,6 +19,8 @@ std::size_t Engine::Impl::push(std::string_view sensor, std::span<const Sample> 
   std::size_t accepted = 0;
   for (const Sample& sample : samples) accepted += take(*channel, sample) ? 1U : 0U;
   flush(*channel);
+  listen_again();
+  channel->show_health();
   return accepted;
 }
 
@@ -51,9 +53,12 @@ bool Engine::Impl::take(Channel& channel, const Sample& sample) {
   const Verdict verdict = channel.gate.judge(sample);
   if (verdict.kind == Verdict::Kind::kRefuse) {
     channel.count_rejected(verdict.reason);
+    channel.watch.lose(1);
     return false;
   }
   channel.count_accepted(verdict);
+  // What a sensor did not send while it was silent is not a loss.
+  if (!channel.asleep) channel.watch.lose(verdict.missing);
   if (channel.asleep) {
     channel.asleep = false;
   } else if (verdict.kind == Verdict::Kind::kAccept) {
@@ -114,6 +119,13 @@ void Engine::Impl::close_segment(Channel& channel, bool ends_stream) {
   tail.ends_stream = ends_stream;
   if (tail.begin < tail.end || ends_stream) submit(channel, tail);
   if (channel.learner) channel.learner->reset_segment();
+  channel.watch.begin_stretch();
+  channel.show_health();
+}
+
+/// Where push() waited, nobody was heard: silences count from here.
+void Engine::Impl::listen_again() {
+  if (waits_.exchange(false)) deaf_until_s_ = clock_();
 }
 
 void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
@@ -122,6 +134,9 @@ void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
   close_segment(*channel, true);
   channel->gate.reopen();
   channel->asleep = false;
+  channel->watch.end();
+  channel->show_health();
+  listen_again();
   if (!channel->fast_loop) return;
   // A worker tells the end; the fast loop must not release samples of the next stream before that.
   wait_while(*channel, [channel] { return channel->oldest_submission().has_value(); });
@@ -159,6 +174,7 @@ void Engine::Impl::forget(double now_s) {
   }
   for (const auto& channel : forgotten) {
     if (channel->gate.is_open()) sink_.on_end(channel->sensor());
+    sink_.on_forgotten(channel->sensor());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/noise/noise_model.hpp"
+#include "stream/rest_evidence.hpp"
 #include "stream/sample.hpp"
 
 namespace gyrod::stream {
@@ -36,6 +37,8 @@ class NoiseLearner {
   virtual void reset_segment() noexcept = 0;
   /// The sensor is at rest as far as the samples tell.
   [[nodiscard]] virtual bool at_rest() const noexcept = 0;
+  /// Asked after every step: what a block of samples says, where the step has ended one; else nullptr. Valid until the next step.
+  [[nodiscard]] virtual const RestEvidence* evidence() const noexcept { return nullptr; }
 };
 
 }  // namespace gyrod::stream

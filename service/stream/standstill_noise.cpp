@@ -27,12 +27,17 @@ const core::NoiseModel* strongest(const std::array<core::NoiseModel, kAxes>& mod
 }
 
 /// @pre sample_rate_hz > 0
-ChannelNoise calibrated_noise(const CalibratedNoise& calibrated, double sample_rate_hz) noexcept {
+std::array<core::NoiseModel, kAxes> calibrated_models(const CalibratedNoise& calibrated,
+                                                      double sample_rate_hz) noexcept {
   std::array<core::NoiseModel, kAxes> models = calibrated.models;
   for (core::NoiseModel& model : models) {
     if (core::is_usable(model)) model = core::at_rate(model, calibrated.sample_rate_hz, sample_rate_hz);
   }
-  return channel_noise(NoiseSource::kCalibrated, models);
+  return models;
+}
+
+ChannelNoise calibrated_noise(const CalibratedNoise& calibrated, double sample_rate_hz) noexcept {
+  return channel_noise(NoiseSource::kCalibrated, calibrated_models(calibrated, sample_rate_hz));
 }
 
 /// Nothing where a value is not finite: the accelerometer has failed, or has none to give.
@@ -73,18 +78,43 @@ StandstillNoise::StandstillNoise(StandstillOptions options)
     : options_(std::move(options)),
       rate_hz_(first_rate(options_)),
       learner_(rate_hz_ > 0.0 ? rate_hz_ : kAnyRateHz) {
-  if (options_.remembered) learner_.restore(*options_.remembered);
+  if (options_.remembered && learner_.restore(*options_.remembered))
+    allan_.restore(options_.remembered->curves);
   revision_ = learner_.revision();
+  rest_seconds_ = learner_.rest_seconds();
 }
 
 void StandstillNoise::step(const Sample& sample, bool measured, double sample_rate_hz) noexcept {
+  fresh_ = false;
   follow_rate(sample_rate_hz);
   if (!(rate_hz_ > 0.0)) return;
-  if (measured) {
-    learner_.step(sample.rate_radps, force_of(sample));
-  } else {
-    learner_.interrupt();
+  if (!measured) return reset_segment();
+  allan_.step(sample.rate_radps);
+  if (learner_.step(sample.rate_radps, force_of(sample))) end_block();
+}
+
+void StandstillNoise::end_block() noexcept {
+  // What was learned was no rest, or a sensor that is no more: so were the samples of the curve.
+  const bool began_anew = learner_.rest_seconds() < rest_seconds_;
+  rest_seconds_ = learner_.rest_seconds();
+  if (began_anew) allan_.clear();
+  allan_.end_block(learner_.at_rest());
+  const core::RestDetector& detector = learner_.detector();
+  evidence_.block_s = static_cast<double>(detector.block_samples()) / rate_hz_;
+  evidence_.looks_at_rest = detector.verdict() == core::RestVerdict::kRest;
+  evidence_.mean_radps = detector.mean();
+  evidence_.bias_radps = learner_.bias();
+  evidence_.bias_s = learner_.state().bias_seconds;
+  evidence_.sample_rate_hz = rate_hz_;
+  evidence_.curves = allan_.curves();
+  const auto usual =
+      options_.calibrated ? calibrated_models(*options_.calibrated, rate_hz_) : learner_.models();
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    evidence_.deviation_radps[axis] = std::sqrt(detector.variance()[axis]);
+    evidence_.usual_deviation_radps[axis] =
+        core::is_usable(usual[axis]) ? std::sqrt(core::noise_variance(usual[axis])) : 0.0;
   }
+  fresh_ = true;
 }
 
 void StandstillNoise::follow_rate(double sample_rate_hz) noexcept {
@@ -104,12 +134,14 @@ void StandstillNoise::take_rate(double sample_rate_hz) noexcept {
   agreeing_ = 0;
   rate_changed_ = true;
   learner_.retime(sample_rate_hz);
+  allan_.clear();
+  rest_seconds_ = 0.0;
 }
 
 std::optional<ChannelNoise> StandstillNoise::update() noexcept {
   const bool learned = learner_.revision() != revision_;
   revision_ = learner_.revision();
-  if (learned && options_.on_learned) options_.on_learned(learner_.state());
+  if (learned && options_.on_learned) options_.on_learned({learner_.state(), allan_.curves()});
   if (std::exchange(rate_changed_, false) || learned) return known();
   return std::nullopt;
 }
@@ -120,6 +152,9 @@ ChannelNoise StandstillNoise::known() const noexcept {
   return channel_noise(NoiseSource::kStandstill, learner_.models());
 }
 
-void StandstillNoise::reset_segment() noexcept { learner_.interrupt(); }
+void StandstillNoise::reset_segment() noexcept {
+  learner_.interrupt();
+  allan_.interrupt();
+}
 
 }  // namespace gyrod::stream

@@ -8,6 +8,7 @@
 
 #include "core/noise/standstill_learner.hpp"
 #include "stream/noise_learner.hpp"
+#include "stream/rest_allan.hpp"
 
 namespace gyrod::stream {
 
@@ -15,6 +16,18 @@ namespace gyrod::stream {
 struct CalibratedNoise {
   double sample_rate_hz = 0.0;                   ///< that the models hold for, above 0
   std::array<core::NoiseModel, kAxes> models{};  ///< (rad/s)^2, as measured, without core::kNoiseMargin
+};
+
+/// All that is kept of a sensor across restarts.
+struct RememberedNoise : core::StandstillState {
+  RememberedNoise() = default;
+  /// Without curves.
+  RememberedNoise(const core::StandstillState& state)  // NOLINT(google-explicit-constructor): it is one
+      : core::StandstillState(state) {}
+  RememberedNoise(const core::StandstillState& state, const AllanCurves& allan)
+      : core::StandstillState(state), curves(allan) {}
+
+  AllanCurves curves{};
 };
 
 /// What StandstillNoise begins with.
@@ -25,9 +38,9 @@ struct StandstillOptions {
   /// Whether what is learned is in use where nothing is calibrated. It is learned in any case.
   bool use_learned = true;
   /// Of an earlier run.
-  std::optional<core::StandstillState> remembered = {};
+  std::optional<RememberedNoise> remembered = {};
   /// Told of every change of the learned models, from the thread that pushes. Must not throw; may be empty.
-  std::function<void(const core::StandstillState&)> on_learned = {};
+  std::function<void(const RememberedNoise&)> on_learned = {};
 };
 
 /// The models as a channel uses them: core::kNoiseMargin as strong. An axis whose model is not usable, one that the calibrated recording
@@ -43,7 +56,8 @@ struct StandstillOptions {
 /// core::StandstillLearner for a channel. The sample rate that it and the calibration are used at is the configured one. Without one
 /// it is that of the calibration or of what is remembered, until the stamps have said otherwise (by more than 2 %, and always the same)
 /// for kAgreeing samples in a row; then it is theirs: a calibration goes through core::at_rate(), and learning begins anew.
-/// Bridged positions are gaps to the learner: what is interpolated has less noise.
+/// Bridged positions are gaps to the learner: what is interpolated has less noise. Beside it grows the Allan deviation of what is at
+/// rest (RestAllan); it begins anew where the learner does.
 class StandstillNoise final : public NoiseLearner {
  public:
   static constexpr std::size_t kAgreeing = 256;
@@ -54,8 +68,12 @@ class StandstillNoise final : public NoiseLearner {
   [[nodiscard]] std::optional<ChannelNoise> update() noexcept override;
   void reset_segment() noexcept override;
   [[nodiscard]] bool at_rest() const noexcept override { return learner_.at_rest(); }
+  [[nodiscard]] const RestEvidence* evidence() const noexcept override {
+    return fresh_ ? &evidence_ : nullptr;
+  }
 
  private:
+  void end_block() noexcept;
   void follow_rate(double sample_rate_hz) noexcept;
   void take_rate(double sample_rate_hz) noexcept;
   [[nodiscard]] ChannelNoise known() const noexcept;
@@ -67,6 +85,10 @@ class StandstillNoise final : public NoiseLearner {
   bool rate_changed_ = false;
   core::StandstillLearner learner_;
   std::uint64_t revision_ = 0;  ///< of the learner, that was told
+  RestAllan allan_;
+  double rest_seconds_ = 0.0;  ///< of the learner, at the last block
+  RestEvidence evidence_;
+  bool fresh_ = false;  ///< the last step has made it
 };
 
 }  // namespace gyrod::stream

@@ -6,6 +6,7 @@
 
 #include "core/allan/allan_deviation.hpp"
 #include "core/allan/noise_coefficients.hpp"
+#include "core/allan/online_allan.hpp"
 
 namespace {
 
@@ -35,6 +36,15 @@ void coefficients(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(core::fit_coefficients(points));
 }
 BENCHMARK(coefficients)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+
+void online_step(benchmark::State& state) {
+  const std::vector<double> rate = white_noise(1 << 16U);
+  core::OnlineAllan estimator;
+  std::size_t n = 0;
+  for (auto _ : state) estimator.step(rate[n++ % rate.size()]);
+  benchmark::DoNotOptimize(estimator.sums());
+}
+BENCHMARK(online_step);
 
 }  // namespace
 

@@ -65,8 +65,10 @@ void StandstillLearner::retime(double sample_rate_hz) noexcept {
   other_seconds_ = 0.0;
 }
 
-void StandstillLearner::step(const Triple& rate, const Triple* accelerometer) noexcept {
-  if (detector_.step(rate, accelerometer)) end_block();
+bool StandstillLearner::step(const Triple& rate, const Triple* accelerometer) noexcept {
+  const bool ended = detector_.step(rate, accelerometer);
+  if (ended) end_block();
+  return ended;
 }
 
 void StandstillLearner::interrupt() noexcept {

@@ -42,7 +42,8 @@ class StandstillLearner {
   /// One sample, finite. Costs 0.1 us, and 0.3 ms once a block when it learns.
   /// @param rate rad/s
   /// @param accelerometer specific force, m/s^2, finite, or nullptr. Where this changes from one sample to the next it is a gap
-  void step(const Triple& rate, const Triple* accelerometer = nullptr) noexcept;
+  /// @return whether it ended a block, so that at_rest() and detector() are new
+  bool step(const Triple& rate, const Triple* accelerometer = nullptr) noexcept;
 
   /// A gap in the samples. What is learned stays.
   void interrupt() noexcept;

@@ -75,7 +75,7 @@ TEST_F(NoiseStateFileTest, PutsAnotherVersionAside) {
   EXPECT_THAT(file(path).load(), IsEmpty());
   EXPECT_THAT(
       warnings,
-      ElementsAre(HasSubstr("gyrod_noise_state is 7; expected 1, the version that this gyrod knows")));
+      ElementsAre(HasSubstr("gyrod_noise_state is 7; expected 1 to 2, the versions that this gyrod knows")));
 }
 
 TEST_F(NoiseStateFileTest, LeavesWhatIsNoFileOrTooLarge) {

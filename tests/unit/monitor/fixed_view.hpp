@@ -43,6 +43,14 @@ inline stream::ChannelSnapshot busy_sensor(std::string name) {
   report.flags = static_cast<std::uint32_t>(stream::SampleFlag::kHopWidened);
   report.window_time_s = 0.0015;
   report.at_rest = true;
+  report.sample_rate_hz = 98.0;
+  report.lag_samples = 16;
+  sensor.health.emplace();
+  sensor.health->state = stream::Health::kStuck;
+  sensor.health->axis[1].state = stream::Health::kNoisy;
+  sensor.curves[0].terms[0] = 9950;
+  sensor.curves_rate_hz = 99.5;
+  sensor.bias_s = 60.0;
   report.model_fit.emplace();
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
     const double scale = 1.0 + static_cast<double>(axis);
@@ -52,6 +60,11 @@ inline stream::ChannelSnapshot busy_sensor(std::string name) {
     report.axis[axis].imf_count = 8;
     report.axis[axis].j = 2;
     report.axis[axis].k = 5;
+    report.axis[axis].tone_frequency_cycles = 0.2 * scale;
+    report.axis[axis].imf[3].model.ar_order = 2 + axis;
+    sensor.bias_radps[axis] = 0.01 * scale;
+    sensor.coefficients[axis][core::NoiseTerm::kAngleRandomWalk] = {7e-4 * scale, 1e-6, true};
+    sensor.coefficients[axis][core::NoiseTerm::kBiasInstability] = {4e-5 * scale, 1e-6, true};
     (*report.model_fit)[axis].normalised_innovation = 1.5 * scale;
   }
   return sensor;
@@ -89,6 +102,10 @@ inline Shown busy_gyrod() {
   shown.engine.channels = 2;
   shown.engine.silent_channels = 1;
   shown.engine.forgotten_channels = 7;
+  for (std::size_t i = 0; i < stream::kHealthStates; ++i) {
+    shown.engine.channels_by_health[i] = i + 1;
+    shown.engine.health_changes[i] = 10 * (i + 1);
+  }
   shown.engine.queued_windows = 6;
   shown.engine.workers = 4;
   shown.engine.workers_busy = 3;

@@ -164,6 +164,36 @@ TEST(Metrics, FiguresOfASensorAndItsAxesAreThoseOfItsLastReport) {
   EXPECT_EQ(value_of(families, "gyrod_axis_normalised_innovation", y), 3.0);
 }
 
+TEST(Metrics, HealthAndWhatIsKnownOfTheNoiseAtRest) {
+  const auto families = families_of(busy_gyrod());
+  const Labels sensor = {{"sensor", "imu_front"}};
+  EXPECT_EQ(value_of(families, "gyrod_sensors_by_health", {{"state", "silent"}}), 9.0);
+  EXPECT_EQ(value_of(families, "gyrod_health_changes_total", {{"state", "warming_up"}}), 20.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_health", sensor), 7.0) << "stuck";
+  EXPECT_EQ(value_of(families, "gyrod_sensor_allan_seconds", sensor), 100.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_lag_samples", sensor), 16.0);
+  const Labels y = {{"sensor", "imu_front"}, {"axis", "y"}};
+  EXPECT_EQ(value_of(families, "gyrod_axis_health", y), 5.0) << "noisy";
+  EXPECT_EQ(value_of(families, "gyrod_axis_bias_radians_per_second", y), 0.02);
+  // 0.016 / sqrt(98 / 2)
+  EXPECT_NEAR(value_of(families, "gyrod_axis_noise_density_radians_per_second_per_root_hertz", y).value(),
+              0.016 / 7.0, 1e-12);
+  EXPECT_EQ(value_of(families, "gyrod_axis_angle_random_walk_radians_per_root_second", y), 1.4e-3);
+  EXPECT_EQ(value_of(families, "gyrod_axis_bias_instability_radians_per_second", y), 8e-5);
+  EXPECT_NEAR(value_of(families, "gyrod_axis_tone_hertz", y).value(), 39.2, 1e-9);
+  EXPECT_EQ(value_of(families, "gyrod_axis_ar_order", y), 3.0);
+}
+
+TEST(Metrics, WhatIsNotObservableOfTheNoiseHasNoSeries) {
+  const auto families = families_of(busy_gyrod());
+  const Labels x = {{"sensor", "imu_rear"}, {"axis", "x"}};
+  for (const std::string name :
+       {"health", "bias_radians_per_second", "tone_hertz", "ar_order", "bias_instability_radians_per_second",
+        "noise_density_radians_per_second_per_root_hertz", "angle_random_walk_radians_per_root_second"})
+    EXPECT_EQ(value_of(families, "gyrod_axis_" + name, x), std::nullopt) << name;
+  EXPECT_EQ(value_of(families, "gyrod_sensor_allan_seconds", {{"sensor", "imu_rear"}}), std::nullopt);
+}
+
 TEST(Metrics, AWindowMethodHasNoModelToJudgeAndWhereNobodyLooksNoRest) {
   Shown shown = busy_gyrod();
   shown.channels[0].last_report.model_fit.reset();
@@ -199,7 +229,7 @@ TEST(Metrics, ASensorHasAsManySeriesAsTheManualSays) {
       if (label != one.labels.end() && label->second == "imu_front") ++series;
     }
   }
-  EXPECT_EQ(series, 42U);  // MonitorOptions::max_channel_series, docs/configuration.md
+  EXPECT_EQ(series, 66U);  // MonitorOptions::max_channel_series, docs/configuration.md
 }
 
 TEST(Metrics, SensorsBeyondTheCapAreCountedInstead) {

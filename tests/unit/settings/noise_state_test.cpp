@@ -1,5 +1,6 @@
 #include "settings/noise_state.hpp"
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -52,6 +53,39 @@ TEST(NoiseState, ComesBackFromItsText) {
   EXPECT_NEAR(state.models[2].white_variance, 1e-5, 1e-20);
 }
 
+TEST(NoiseState, KeepsAllanSumsToTheBit) {
+  stream::RememberedNoise state = example();
+  core::OnlineAllan estimator;
+  for (int n = 0; n < 1000; ++n) estimator.step(0.1 * std::sin(n * n));
+  state.curves[0] = state.curves[2] = estimator.sums();
+  const auto after = parse_noise_state("state.json", noise_state_text({{"a", state}})).at("a");
+  EXPECT_EQ(after.curves, state.curves);
+}
+
+TEST(NoiseState, ReadsTheVersionBeforeAllanSums) {
+  json document = json::parse(noise_state_text({{"front", example()}}));
+  document["gyrod_noise_state"] = 1;
+  document["sensors"]["front"].erase("allan");
+  const auto after = parse_noise_state("state.json", document.dump()).at("front");
+  EXPECT_EQ(after.rest_seconds, 812.5);
+  EXPECT_EQ(after.curves, stream::AllanCurves{});
+}
+
+TEST(NoiseState, SaysWhichAllanSumsCannotBe) {
+  const auto with = [](const json& curve) {
+    json document = json::parse(noise_state_text({{"front", example()}}));
+    document["sensors"]["front"]["allan"]["x"] = curve;
+    return complaint(document.dump());
+  };
+  EXPECT_EQ(with({{"terms", {9, 8}}, {"squares_rad2ps2", {1.0, 0.5}}}), "none");
+  EXPECT_THAT(with({{"terms", {9, 8.5}}, {"squares_rad2ps2", {1.0, 0.5}}}),
+              HasSubstr("expected whole numbers"));
+  EXPECT_THAT(with({{"terms", {9, 8}}, {"squares_rad2ps2", {1.0}}}), HasSubstr("expected as many numbers"));
+  EXPECT_THAT(with({{"terms", {8, 9}}, {"squares_rad2ps2", {1.0, 0.5}}}),
+              HasSubstr("expected fewer for longer"));
+  EXPECT_THAT(with({{"terms", {9}}, {"squares_rad2ps2", {-1.0}}}), HasSubstr("squares of 0 and more"));
+}
+
 TEST(NoiseState, TakesWhatALearnerGivesAndALearnerTakesIt) {
   std::mt19937_64 bits(5);
   std::normal_distribution<double> normal(0.0, 0.005);
@@ -94,9 +128,9 @@ TEST(NoiseState, GarbageIsAnError) {
 TEST(NoiseState, SaysWhatDoesNotFit) {
   const json good = json::parse(noise_state_text({{"front", example()}}));
   json document = good;
-  document["gyrod_noise_state"] = 2;
+  document["gyrod_noise_state"] = 3;
   EXPECT_EQ(complaint(document.dump()),
-            "state.json: gyrod_noise_state is 2; expected 1, the version that this gyrod knows");
+            "state.json: gyrod_noise_state is 3; expected 1 to 2, the versions that this gyrod knows");
   document = good;
   document["sensors"]["front"]["segments"] = nullptr;  // what a NaN is written as
   EXPECT_EQ(complaint(document.dump()),

@@ -63,6 +63,63 @@ TEST(StandstillNoise, LearnsAtRestAndKeepsItInMotion) {
   EXPECT_EQ(channel_noise(NoiseSource::kStandstill, told.back().models), rested);
 }
 
+// Rest is known after eight blocks; then all but the last two blocks before the motion count.
+TEST(StandstillNoise, KeepsTheAllanDeviationOfRestAloneAndTellsItBlockByBlock) {
+  StandstillNoise learner({.sample_rate_hz = kHz});
+  const auto samples = rest_then_motion(6000, 4050);
+  std::size_t blocks = 0;
+  RestEvidence last;
+  for (const Sample& sample : samples) {
+    learner.step(sample, true, kHz);
+    static_cast<void>(learner.update());
+    if (const RestEvidence* evidence = learner.evidence()) {
+      last = *evidence;
+      ++blocks;
+    }
+  }
+  EXPECT_EQ(blocks, 60U);
+  EXPECT_EQ(last.block_s, 1.0);
+  EXPECT_FALSE(last.looks_at_rest);
+  core::OnlineAllan expected;
+  for (std::size_t n = 800; n < 3900; ++n) expected.step(samples[n].rate_radps[1]);
+  EXPECT_EQ(last.curves[1], expected.sums());
+}
+
+TEST(StandstillNoise, TellsTheLevelThatIsUsual) {
+  const auto last_of = [](StandstillNoise& learner, std::span<const Sample> samples) {
+    RestEvidence last;
+    for (const Sample& sample : samples) {
+      learner.step(sample, true, kHz);
+      if (learner.evidence() != nullptr) last = *learner.evidence();
+    }
+    return last;
+  };
+  const auto samples = rest_then_motion(6000, 6000);
+  StandstillNoise learning({});
+  const RestEvidence learned = last_of(learning, samples);
+  EXPECT_TRUE(learned.looks_at_rest);
+  EXPECT_NEAR(learned.usual_deviation_radps[0], kDeviation, 0.03 * kDeviation);
+  EXPECT_NEAR(learned.deviation_radps[0], kDeviation, 0.1 * kDeviation);
+  EXPECT_GT(learned.bias_s, 40.0);
+  StandstillNoise told({.calibrated = calibrated(1e-4)});
+  EXPECT_DOUBLE_EQ(last_of(told, samples).usual_deviation_radps[2], 1e-2);
+}
+
+TEST(StandstillNoise, RemembersTheAllanDeviation) {
+  RememberedNoise state;
+  StandstillNoise teller({.on_learned = [&state](const auto& now) { state = now; }});
+  after(teller, rest_then_motion(6000, 6000), kHz);
+  EXPECT_GT(state.curves[0].terms[0], 2000U);
+  StandstillNoise learner({.remembered = state});
+  const auto moving = rest_then_motion(500, 0);
+  RestEvidence last;
+  for (const Sample& sample : moving) {
+    learner.step(sample, true, kHz);
+    if (learner.evidence() != nullptr) last = *learner.evidence();
+  }
+  EXPECT_EQ(last.curves, state.curves);
+}
+
 TEST(StandstillNoise, UsesWhatIsRememberedFromTheFirstSampleOn) {
   StandstillNoise first({});
   const ChannelNoise learned = after(first, rest_then_motion(6000, 6000), kHz);
