@@ -175,7 +175,6 @@ TEST(Metrics, HealthAndWhatIsKnownOfTheNoiseAtRest) {
   const Labels y = {{"sensor", "imu_front"}, {"axis", "y"}};
   EXPECT_EQ(value_of(families, "gyrod_axis_health", y), 5.0) << "noisy";
   EXPECT_EQ(value_of(families, "gyrod_axis_bias_radians_per_second", y), 0.02);
-  // 0.016 / sqrt(98 / 2)
   EXPECT_NEAR(value_of(families, "gyrod_axis_noise_density_radians_per_second_per_root_hertz", y).value(),
               0.016 / 7.0, 1e-12);
   EXPECT_EQ(value_of(families, "gyrod_axis_angle_random_walk_radians_per_root_second", y), 1.4e-3);
