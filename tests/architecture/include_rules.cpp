@@ -32,18 +32,19 @@ const std::vector<Room>& rooms() {
       {"core/evaluation", {}, {"Eigen/"}},
       {"stream", {"core/"}, {}},
       {"ros2", {}, {}},
+      {"fleet", {}, {}},
       {"bus",
-       {"core/", "stream", "ros2"},
+       {"core/", "stream", "ros2", "fleet"},
        {"dds/", "gyrod.h", "sensor_msgs_imu.h", "openssl/", "sys/", "unistd.h"}},
       {"monitor",
        {"core/", "stream"},
        {"prometheus/", "httplib.h", "netdb.h", "netinet/", "poll.h", "sys/", "unistd.h"}},
-      {"settings", {"core/", "stream", "ros2"}, {"nlohmann/", "valijson/"}},
+      {"settings", {"core/", "stream", "ros2", "fleet"}, {"nlohmann/", "valijson/"}},
       {"files", {"core/", "stream"}, {"zlib.h", "fcntl.h", "sys/", "unistd.h"}},
       {"web", {}, {}},
       {"report", {"core/", "web"}, {"nlohmann/"}},
       {"app",
-       {"core/", "stream", "ros2", "bus", "monitor", "settings", "files", "web", "report"},
+       {"core/", "stream", "ros2", "fleet", "bus", "monitor", "settings", "files", "web", "report"},
        {"CLI/", "Eigen/", "nlohmann/", "spdlog/", "systemd/", "sys/", "unistd.h"}}};
   return table;
 }

@@ -1,0 +1,32 @@
+/// What a daemon tells the other daemons of its fleet about itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fleet/shard.hpp"
+
+namespace gyrod::fleet {
+
+/// Goes round as text with the writer of denoised samples (DDS: its user data), which others than gyrod may read:
+///   "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=ID,ID;"
+struct Announcement {
+  Shard shard;
+  bool active = false;  ///< false: joining, takes part in who yields to whom and serves nothing
+  std::vector<std::string>
+      yields_to;  ///< ids of daemons for which this one has stopped to serve what both hold
+
+  friend bool operator==(const Announcement&, const Announcement&) = default;
+};
+
+/// Daemons of one fleet that are taken notice of; more are not.
+inline constexpr std::size_t kMostPeers = 256;
+
+[[nodiscard]] std::string text_of(const Announcement& announcement);
+
+/// Keys that are not known are passed over. @return nothing if there is no shard in it, or anything of gyrod's that is malformed
+[[nodiscard]] std::optional<Announcement> parse_announcement(std::string_view text);
+
+}  // namespace gyrod::fleet

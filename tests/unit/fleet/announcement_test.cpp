@@ -1,0 +1,43 @@
+#include "fleet/announcement.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gyrod::fleet {
+namespace {
+
+using ::testing::SizeIs;
+
+TEST(Announcement, IsReadBackAsItWasTold) {
+  for (const Announcement& told : {Announcement{{2, 3}, true, {"a1", "b2"}}, Announcement{{1, 1}, false, {}}})
+    EXPECT_EQ(parse_announcement(text_of(told)), told);
+}
+
+TEST(Announcement, IsTextThatOthersCanRead) {
+  EXPECT_EQ(text_of(Announcement{{2, 3}, true, {"a1", "b2"}}),
+            "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=a1,b2;");
+}
+
+TEST(Announcement, LeavesRoomForWhatOthersWriteBesides) {
+  const auto read = parse_announcement("typehash=RIHS01_7d9a;gyrod.shard=1/2;gyrod.state=active;later=1;");
+  EXPECT_EQ(read, (Announcement{{1, 2}, true, {}}));
+}
+
+TEST(Announcement, IsNoneWithoutAShardOrWithAnythingMalformed) {
+  for (const char* text :
+       {"", ";", "typehash=RIHS01_7d9a;", "gyrod.state=active;", "gyrod.shard=3/2;gyrod.state=active;",
+        "gyrod.shard=;", "gyrod.shard=1/2;gyrod.state=dancing;"}) {
+    EXPECT_EQ(parse_announcement(text), std::nullopt) << text;
+  }
+}
+
+TEST(Announcement, OfAStrangerIsBounded) {
+  std::string text = "gyrod.shard=1/2;gyrod.state=active;gyrod.yields=";
+  for (int i = 0; i < 100000; ++i) text += "x,";
+  const auto read = parse_announcement(text);
+  ASSERT_TRUE(read.has_value());
+  EXPECT_THAT(read->yields_to, SizeIs(kMostPeers));
+}
+
+}  // namespace
+}  // namespace gyrod::fleet
