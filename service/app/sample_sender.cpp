@@ -41,7 +41,6 @@ void SendFlags::add_to(CLI::App& command) {
 SampleSender::SampleSender(const settings::BusSettings& settings, const SendFlags& flags,
                            Interrupt& interrupt)
     : topic_(checked(flags, settings).batch == 1 ? settings.topics.raw : settings.topics.raw_batch),
-      sensor_(flags.sensor),
       chunk_(chunk_of(flags)),
       interrupt_(interrupt),
       pacer_(flags.speed.speed, interrupt),
@@ -59,32 +58,38 @@ SampleSender::SampleSender(const settings::BusSettings& settings, const SendFlag
   // The others that listen already are found within a moment of the first; what is sent before they are is not theirs.
   constexpr std::chrono::milliseconds kDiscovery{500};
   (void)interrupt.wait_for(kDiscovery);
-  waiting_.reserve(chunk_);
+  for (std::size_t k = 1; k <= flags.sensors; ++k) {
+    sources_.push_back({flags.sensors == 1 ? flags.sensor : flags.sensor + "_" + std::to_string(k), {}});
+    sources_.back().waiting.reserve(chunk_);
+  }
 }
 
-bool SampleSender::send(const stream::Sample& sample) {
-  waiting_.push_back(sample);
-  if (waiting_.size() < chunk_) return true;
-  return pacer_.wait_until_due(sample.stamp_ns) && flush();
+bool SampleSender::send(const stream::Sample& sample, std::size_t sensor) {
+  Source& source = sources_[sensor];
+  source.waiting.push_back(sample);
+  if (source.waiting.size() < chunk_) return true;
+  return pacer_.wait_until_due(sample.stamp_ns) && flush(source);
 }
 
 void SampleSender::finish() {
-  if (!flush()) return;
-  // Without the end gyrod would hold the last samples back, as more might follow.
-  if (!insist([this] { return writer_.end(sensor_); })) return;
+  for (Source& source : sources_) {
+    if (!flush(source)) return;
+    // Without the end gyrod would hold the last samples back, as more might follow.
+    if (!insist([this, &source] { return writer_.end(source.sensor); })) return;
+  }
   constexpr std::chrono::milliseconds kLook{200};
   (void)insist([this, kLook] { return writer_.wait_for_acknowledgements(kLook); });
 }
 
 /// @return false if it was interrupted
-bool SampleSender::flush() {
+bool SampleSender::flush(Source& source) {
   std::size_t done = 0;
-  const bool all = insist([this, &done] {
-    done += writer_.publish(sensor_, std::span(waiting_).subspan(done));
-    return done == waiting_.size();
+  const bool all = insist([&] {
+    done += writer_.publish(source.sensor, std::span(source.waiting).subspan(done));
+    return done == source.waiting.size();
   });
   sent_ += done;
-  waiting_.clear();
+  source.waiting.clear();
   return all;
 }
 

@@ -1,4 +1,4 @@
-/// One sensor's samples to DDS, at the pace of their stamps: what `replay` and `simulate` share.
+/// Samples of one or several sensors to DDS, at the pace of their stamps: what `replay` and `simulate` share.
 #pragma once
 
 #include <chrono>
@@ -21,6 +21,7 @@ namespace gyrod::app {
 
 struct SendFlags {
   std::string sensor;
+  std::size_t sensors = 1;  ///< more than one: `sensor` and "_1", "_2", ...
   std::size_t batch = 1;
   double wait_s = 10.0;
   SpeedFlag speed;
@@ -37,11 +38,12 @@ class SampleSender {
   SampleSender(const settings::BusSettings& settings, const SendFlags& flags, Interrupt& interrupt);
 
   /// Sends the sample when it is due, together with its batch.
+  /// @param sensor 0..flags.sensors - 1; their due times come in order
   /// @return false if that was interrupted
   /// @throws bus::BusError; Incomplete if the readers take nothing for a minute
-  [[nodiscard]] bool send(const stream::Sample& sample);
+  [[nodiscard]] bool send(const stream::Sample& sample, std::size_t sensor = 0);
 
-  /// Sends the rest, tells that the sensor has ended, and waits until all of it has arrived.
+  /// Sends the rest, tells that the sensors have ended, and waits until all of it has arrived.
   /// @throws as send()
   void finish();
 
@@ -49,18 +51,23 @@ class SampleSender {
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
 
  private:
-  [[nodiscard]] bool flush();
+  /// What waits to be sent together.
+  struct Source {
+    std::string sensor;
+    std::vector<stream::Sample> waiting;
+  };
+
+  [[nodiscard]] bool flush(Source& source);
   template <class Attempt>
   [[nodiscard]] bool insist(const Attempt& attempt);
 
   std::string topic_;
-  std::string sensor_;
   std::size_t chunk_;  ///< samples sent together
   Interrupt& interrupt_;
   Pacer pacer_;
   bus::Domain domain_;
   bus::RawWriter writer_;
-  std::vector<stream::Sample> waiting_;
+  std::vector<Source> sources_;
   std::uint64_t sent_ = 0;
 };
 

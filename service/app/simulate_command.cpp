@@ -4,6 +4,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/angle_units.hpp"
 #include "app/command.hpp"
@@ -121,24 +123,48 @@ int simulate_to_file(const SimulateFlags& flags, Interrupt& interrupt) {
   return kDone;
 }
 
+/// Gyros of the seeds N, N + 1, ... Each begins a little later than the one before, so that their messages are spread over the time
+/// between two of one sensor, in steps of 1 ms.
+std::vector<core::SimulatedGyro> spread_gyros(const SimulateFlags& flags,
+                                              core::SimulatedGyroOptions options) {
+  constexpr std::int64_t kStepNs = 1'000'000;
+  const std::int64_t first_stamp_ns = options.first_stamp_ns;
+  const auto message_ns =
+      static_cast<std::int64_t>(static_cast<double>(flags.send.batch) * 1e9 / flags.rate_hz);
+  const auto sensors = static_cast<std::int64_t>(flags.send.sensors);
+  std::vector<core::SimulatedGyro> gyros;
+  for (std::int64_t k = 0; k < sensors; ++k) {
+    options.first_stamp_ns = first_stamp_ns + message_ns / kStepNs * k / sensors * kStepNs;
+    gyros.emplace_back(options);
+    ++options.seed;
+  }
+  return gyros;
+}
+
 int simulate_to_bus(const SimulateFlags& flags, Interrupt& interrupt) {
   core::SimulatedGyroOptions options = gyro_options(flags);
   options.first_stamp_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
                                std::chrono::system_clock::now().time_since_epoch())
                                .count();
-  core::SimulatedGyro gyro(options);
   const settings::Settings settings = flags.bus.load();
+  std::vector<core::SimulatedGyro> gyros = spread_gyros(flags, options);
   SampleSender sender(settings.bus, flags.send, interrupt);
   const std::uint64_t count = sample_count(flags);
-  for (std::uint64_t n = 0; n < count; ++n) {
-    const core::SimulatedSample sample = gyro.next();
-    if (!sender.send({sample.sequence, sample.stamp_ns, sample.measured_radps})) break;
+  bool sending = true;
+  for (std::uint64_t n = 0; n < count && sending; ++n) {
+    for (std::size_t k = 0; k < gyros.size() && sending; ++k) {
+      const core::SimulatedSample sample = gyros[k].next();
+      sending = sender.send({sample.sequence, sample.stamp_ns, sample.measured_radps}, k);
+    }
   }
   sender.finish();
-  std::fprintf(stderr, "%llu samples of sensor '%s' sent\n", static_cast<unsigned long long>(sender.sent()),
-               flags.send.sensor.c_str());
+  const bool several = flags.send.sensors > 1;
+  std::fprintf(stderr, "%llu samples of %s'%s%s' sent\n", static_cast<unsigned long long>(sender.sent()),
+               several ? (std::to_string(flags.send.sensors) + " sensors ").c_str() : "sensor ",
+               flags.send.sensor.c_str(), several ? "_..." : "");
   // Without a limit Ctrl-C is the ordinary end.
-  return sender.sent() == count || (!flags.samples && !flags.seconds) ? kDone : kInterrupted;
+  return sender.sent() == count * flags.send.sensors || (!flags.samples && !flags.seconds) ? kDone
+                                                                                           : kInterrupted;
 }
 
 void add_options(CLI::App& command, SimulateFlags& flags) {
@@ -165,9 +191,14 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
       ->type_name("NAME")
       ->check(sensor_id());
   command
+      .add_option("--sensors", flags.send.sensors, "So many sensors, NAME_1, NAME_2, ...; on DDS only [1]")
+      ->type_name("N")
+      ->check(in_range(1, 65536));
+  command
       .add_option("-o,--output", flags.output,
                   "To this file, with the truth, and not to DDS; gzip if it ends in .gz")
-      ->type_name("OUT.csv[.gz]");
+      ->type_name("OUT.csv[.gz]")
+      ->excludes("--sensors");
   add_unit(command, flags.unit);
   command.add_option("--engine-tone", flags.engine_tone_dps, "Amplitude of an engine tone while driving [0]")
       ->type_name("DEG/S")
@@ -194,7 +225,8 @@ void add_simulate(CLI::App& parser, Action& chosen) {
       "Examples:\n"
       "  gyrod simulate --motion drive                      # on DDS, in real time, until Ctrl-C\n"
       "  gyrod simulate --motion drive --seconds 600 -o drive.csv.gz\n"
-      "  gyrod simulate --rate 1000 --batch 32 --speed max --samples 1000000");
+      "  gyrod simulate --rate 1000 --batch 32 --speed max --samples 1000000\n"
+      "  gyrod simulate --sensors 1000 --batch 10 --sensor imu     # imu_1 to imu_1000");
   command->callback([&chosen, flags] {
     chosen = [flags](Interrupt& interrupt) {
       return flags->output.empty() ? simulate_to_bus(*flags, interrupt) : simulate_to_file(*flags, interrupt);
