@@ -67,7 +67,10 @@ Rig::Result Rig::run_on_bus(std::vector<std::string> arguments) {
 
 void Rig::write_config(const DaemonOptions& options, const std::string& name) const {
   nlohmann::json config = {
-      {"bus", {{"domain", domain_}, {"input", {{"max_messages", options.max_messages}}}}},
+      {"bus",
+       {{"domain", domain_},
+        {"network", options.network},
+        {"input", {{"max_messages", options.max_messages}}}}},
       {"denoise", {{"method", options.method}, {"window_samples", options.window_samples}}},
       {"noise", {{"state_file", options.state_file}}},
       {"limits",

@@ -48,6 +48,7 @@ class Rig : public ::testing::Test {
     std::string state_file = {};  ///< of noise; empty: none
     double silent_after_s = 0.0;  ///< 0, never: a sensor that a sanitizer slows down is not silent
     double forget_after_s = 0.0;
+    std::string network = "loopback";
     std::string patch = "{}";  ///< what else differs: a JSON merge patch (RFC 7396) of the configuration
   };
   /// Writes the configuration that start_daemon() would.
