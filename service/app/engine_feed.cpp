@@ -1,12 +1,37 @@
 #include "app/engine_feed.hpp"
 
+#include <chrono>
+
 #include <spdlog/spdlog.h>
 
 namespace gyrod::app {
+namespace {
+
+std::int64_t now_ns() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
 
 std::size_t EngineInlet::push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
   const std::lock_guard lock(mutex_);
-  return engine_.push(sensor, samples);
+  const bool served = rule_.serves(sensor);
+  if (!served && !samples.empty() && holds(rule_.own, sensor))
+    succession_.watch(sensor, samples.back().stamp_ns, now_ns());
+  const std::size_t foreign = served ? served_before(sensor, samples, now_ns()) : samples.size();
+  if (foreign > 0) foreign_.fetch_add(foreign, std::memory_order_relaxed);
+  return foreign < samples.size() ? engine_.push(sensor, samples.subspan(foreign)) : 0;
+}
+
+/// Samples at the front that the daemon before this one may have served.
+std::size_t EngineInlet::served_before(std::string_view sensor, std::span<const stream::Sample> samples,
+                                       std::int64_t now) noexcept {
+  std::size_t count = 0;
+  while (count < samples.size() && succession_.may_have_been_served(sensor, samples[count].stamp_ns, now))
+    ++count;
+  return count;
 }
 
 void EngineInlet::end(std::string_view sensor) noexcept {
@@ -17,6 +42,15 @@ void EngineInlet::end(std::string_view sensor) noexcept {
 void EngineInlet::tend() noexcept {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (lock.owns_lock()) engine_.tend();
+}
+
+void EngineInlet::serve(const fleet::ServingRule& rule) noexcept {
+  const std::lock_guard lock(mutex_);
+  rule_ = rule;
+  succession_.change(now_ns(), [this](std::string_view sensor) { return rule_.serves(sensor); });
+  for (const stream::ChannelSnapshot& channel : engine_.channels(engine_.options().max_channels)) {
+    if (!rule_.serves(channel.sensor)) engine_.end_of_stream(channel.sensor);
+  }
 }
 
 void FeedFromBus::on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {

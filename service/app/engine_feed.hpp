@@ -1,11 +1,15 @@
 /// From the bus into the engine.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <mutex>
 
 #include "bus/imu_subscriber.hpp"
 #include "bus/imu_topics.hpp"
 #include "bus/subscriber.hpp"
+#include "fleet/roster.hpp"
+#include "fleet/succession.hpp"
 #include "stream/engine.hpp"
 
 namespace gyrod::app {
@@ -14,16 +18,28 @@ namespace gyrod::app {
 class EngineInlet {
  public:
   explicit EngineInlet(stream::Engine& engine) : engine_(engine) {}
-  /// As Engine::push().
+  /// As Engine::push(), of sensors that are served here.
   std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   void end(std::string_view sensor) noexcept;
   /// As Engine::tend(), unless somebody pushes at the moment: then at the next call.
   void tend() noexcept;
 
+  /// Takes samples of these sensors only from now on; the rest is passed over and counted. What was taken of others before is released,
+  /// and their sensors end.
+  void serve(const fleet::ServingRule& rule) noexcept;
+  /// Samples passed over, since others serve their sensors.
+  [[nodiscard]] std::uint64_t foreign() const noexcept { return foreign_.load(std::memory_order_relaxed); }
+
  private:
   /// Taken before all others, and held while push() waits for workers: then both threads wait.
   std::mutex mutex_;
+  [[nodiscard]] std::size_t served_before(std::string_view sensor, std::span<const stream::Sample> samples,
+                                          std::int64_t now) noexcept;
+
   stream::Engine& engine_;
+  fleet::ServingRule rule_{.own = {}, .active = true};
+  fleet::Succession succession_;
+  std::atomic<std::uint64_t> foreign_{0};
 };
 
 /// What comes from gyrod's own topics.

@@ -50,6 +50,7 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
   options.output_reliability = reliability(settings.output.reliability);
   options.output_depth = settings.output.history_depth;
   options.max_batch_samples = settings.max_batch_samples;
+  options.shard = fleet::parse_shard(settings.shard);
   options.ros2.topics = settings.ros2.topics;
   options.ros2.outputs = {.denoised_suffix = settings.ros2.denoised_suffix,
                           .realtime_suffix = settings.ros2.realtime_suffix};

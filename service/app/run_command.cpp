@@ -16,6 +16,7 @@
 #include "app/status_log.hpp"
 #include "app/version.hpp"
 #include "bus/log.hpp"
+#include "fleet/shard.hpp"
 #include "ros2/names.hpp"
 #include "settings/enum_names.hpp"
 #include "settings/unused_keys.hpp"
@@ -67,8 +68,14 @@ class LogScope {
 };
 
 void announce_ros2(const settings::Settings& settings) {
-  const bus::Ros2Options ros2 = bus_options(settings.bus).ros2;
+  const bus::BusOptions options = bus_options(settings.bus);
+  const bus::Ros2Options& ros2 = options.ros2;
   for (const std::string& topic : ros2.topics) {
+    if (options.shard && !ros2::is_pattern(topic) && !fleet::holds(*options.shard, topic)) {
+      spdlog::info("ROS 2: {} is of shard {}/{}", topic, fleet::shard_of(topic, options.shard->count),
+                   options.shard->count);
+      continue;
+    }
     const ros2::Outputs outputs = ros2::outputs_of(topic, ros2.outputs);
     spdlog::info("ROS 2: {} {}, writes {}{}", ros2::is_pattern(topic) ? "looks for" : "reads", topic,
                  outputs.denoised,

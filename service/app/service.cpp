@@ -86,6 +86,7 @@ void ReleaseToBus::let_readers_catch_up(std::size_t samples) noexcept {
 
 Service::Service(const settings::Settings& settings)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
+      shard_(bus_options(settings.bus).shard.value_or(fleet::Shard{})),
       noise_file_(settings.noise.state_file, [](const std::string& line) { spdlog::warn(line); }),
       noise_(settings.noise, noise_file_.load()),
       domain_(settings.bus.domain, settings.bus.network, settings.bus.security.folder),
@@ -97,7 +98,9 @@ Service::Service(const settings::Settings& settings)
       feed_(inlet_, imu_topics_),
       imu_feed_(inlet_),
       subscriber_(domain_, bus_options(settings.bus), feed_),
-      imu_subscriber_(imu_topics_, imu_feed_) {
+      imu_subscriber_(imu_topics_, imu_feed_),
+      fleet_link_(inlet_),
+      fleet_(domain_, publisher_, live_bus_options(settings), fleet_link_) {
   if (domain_.identity()) peers_.emplace(domain_);
   if (!settings.monitor.enabled) return;
   try {
@@ -109,6 +112,7 @@ Service::Service(const settings::Settings& settings)
 
 void Service::start() {
   if (monitor_) monitor_->start();
+  fleet_.start();
   subscriber_.start();
   imu_subscriber_.start();
   ready_ = true;
@@ -120,6 +124,7 @@ bool Service::stop() {
   engine_.hurry_after(stop_deadline_);  // holds for what the subscriber still hands over, too
   imu_subscriber_.stop();
   subscriber_.stop();
+  fleet_.leave();  // takes no more from here on: others may
   const bool denoised = engine_.stop(stop_deadline_);
   keep_noise();
   publisher_.wait_for_acknowledgements(kLastWord);
@@ -142,6 +147,7 @@ monitor::View Service::view() {
   return {.engine = [this] { return engine_.snapshot(); },
           .channels = [this](std::size_t limit) { return engine_.channels(limit); },
           .bus = [this] { return bus_snapshot(); },
+          .fleet = [this] { return fleet_snapshot(); },
           .readiness = [this] { return readiness(); }};
 }
 
@@ -150,7 +156,20 @@ monitor::Readiness Service::readiness() const {
   const auto& identity = domain_.identity();
   if (identity && std::chrono::system_clock::now() >= identity->expires_at)
     return {false, "a certificate has expired"};
+  if (!fleet_.standing().active) return {false, "joining the daemons of the other shards"};
   return {true, ""};
+}
+
+monitor::FleetSnapshot Service::fleet_snapshot() const {
+  const fleet::Standing standing = fleet_.standing();
+  return {.shard = text_of(shard_),
+          .active = standing.active,
+          .peers = standing.peers,
+          .twins = standing.twins,
+          .overlapping = standing.overlapping,
+          .missing = standing.missing,
+          .disputes = standing.disputes,
+          .foreign_samples = inlet_.foreign()};
 }
 
 monitor::BusSnapshot Service::bus_snapshot() const {

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "app/engine_feed.hpp"
+#include "app/fleet_link.hpp"
 #include "app/noise_sources.hpp"
 #include "app/noise_state_file.hpp"
 #include "bus/domain.hpp"
+#include "bus/fleet_members.hpp"
 #include "bus/imu_subscriber.hpp"
 #include "bus/imu_topics.hpp"
 #include "bus/peer_watch.hpp"
@@ -98,9 +100,11 @@ class Service {
  private:
   [[nodiscard]] monitor::View view();
   [[nodiscard]] monitor::BusSnapshot bus_snapshot() const;
+  [[nodiscard]] monitor::FleetSnapshot fleet_snapshot() const;
   [[nodiscard]] monitor::Readiness readiness() const;
 
   std::chrono::milliseconds stop_deadline_;
+  fleet::Shard shard_;
   std::atomic<bool> ready_{false};
   NoiseStateFile noise_file_;
   NoiseSources noise_;
@@ -116,6 +120,8 @@ class Service {
   FeedFromRos2 imu_feed_;
   bus::Subscriber subscriber_;
   bus::ImuSubscriber imu_subscriber_;
+  FleetLink fleet_link_;
+  bus::FleetMembers fleet_;
   std::optional<monitor::Monitor> monitor_;
 };
 

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fleet/shard.hpp"
 #include "ros2/names.hpp"
 
 namespace gyrod::bus {
@@ -72,6 +74,10 @@ struct BusOptions {
   TopicNames topics;
 
   Ros2Options ros2;
+
+  /// Which sensors are served here where several daemons share them (FleetMembers); ROS 2 topics of other shards are not opened.
+  /// None: all, as shard 1/1 that does not wait for others when it starts.
+  std::optional<fleet::Shard> shard;
 
   /// Input: kReliable matches reliable writers only; kBestEffort matches every writer, and losses show as
   /// gaps.

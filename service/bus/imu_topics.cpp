@@ -11,7 +11,7 @@ namespace gyrod::bus {
 ImuTopics::Impl::Impl(Domain domain, BusOptions options)
     : domain_(std::move(domain)), options_(std::move(options)) {
   for (const std::string& topic : options_.ros2.topics) {
-    if (!ros2::is_pattern(topic)) open(topic);
+    if (!ros2::is_pattern(topic) && is_ours(topic)) open(topic);
   }
 }
 
@@ -21,7 +21,11 @@ ImuTopic* ImuTopics::Impl::find(std::string_view name) const {
   return found == topics_.end() ? nullptr : found->second.get();
 }
 
-bool ImuTopics::Impl::is_wanted(std::string_view name) const noexcept {
+bool ImuTopics::Impl::is_ours(std::string_view name) const noexcept {
+  return !options_.shard || fleet::holds(*options_.shard, name);
+}
+
+bool ImuTopics::Impl::is_named(std::string_view name) const noexcept {
   const auto matches = [name](const std::string& topic) { return ros2::matches(topic, name); };
   return std::ranges::any_of(options_.ros2.topics, matches) && ros2::is_topic(name) &&
          !ros2::is_output(name, options_.ros2.outputs);
@@ -54,7 +58,7 @@ ImuTopics::ImuTopics(const Domain& domain, const BusOptions& options)
     : impl_(std::make_unique<Impl>(domain, options)) {}
 ImuTopics::~ImuTopics() = default;
 
-bool ImuTopics::claims(std::string_view sensor) const noexcept { return impl_->is_wanted(sensor); }
+bool ImuTopics::claims(std::string_view sensor) const noexcept { return impl_->is_named(sensor); }
 
 bool ImuTopics::publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept {
   ImuTopic* topic = impl_->find(sensor);

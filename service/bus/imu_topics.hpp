@@ -29,14 +29,14 @@ struct ImuTopicsSnapshot {
 /// this lives. Thread-safe.
 class ImuTopics {
  public:
-  /// Opens the topics that are no patterns; they fill their caches from now on.
+  /// Opens the topics that are no patterns and of this daemon's shard (BusOptions::shard); they fill their caches from now on.
   /// @throws BusError naming topic, QoS and DDS's answer
   ImuTopics(const Domain& domain, const BusOptions& options);
   ~ImuTopics();
   ImuTopics(const ImuTopics&) = delete;
   ImuTopics& operator=(const ImuTopics&) = delete;
 
-  /// Whether a topic of that name is, or would be, read: such a sensor id is taken, nobody else may use it.
+  /// Whether a topic of that name is, or would be, read, be it by the daemon of another shard: such a sensor id is taken, nobody else may use it.
   [[nodiscard]] bool claims(std::string_view sensor) const noexcept;
 
   /// Publishes what the engine released of a sensor: each message as it came, but for the rates and their covariance.

@@ -23,7 +23,11 @@ class ImuTopics::Impl {
   /// The open topic of that name, or none. It stays.
   [[nodiscard]] ImuTopic* find(std::string_view name) const;
   /// Whether the name is one of those to read, by name or pattern, and not that of an output.
-  [[nodiscard]] bool is_wanted(std::string_view name) const noexcept;
+  [[nodiscard]] bool is_named(std::string_view name) const noexcept;
+  /// Whether it is one of this daemon's shard besides.
+  [[nodiscard]] bool is_wanted(std::string_view name) const noexcept {
+    return is_named(name) && is_ours(name);
+  }
 
   /// Opens a topic that is not open yet. @throws BusError saying why not
   ImuTopic& open(const std::string& name);
@@ -37,6 +41,7 @@ class ImuTopics::Impl {
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
  private:
+  [[nodiscard]] bool is_ours(std::string_view name) const noexcept;
   void check_new(const std::string& name) const;
 
   Domain domain_;

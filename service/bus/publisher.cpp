@@ -87,6 +87,8 @@ class Publisher::Impl {
     return write_errors_.load(std::memory_order_relaxed);
   }
 
+  [[nodiscard]] dds_entity_t denoised_writer() const noexcept { return denoised_.singles.get(); }
+
  private:
   /// The same samples one by one and in batches.
   struct Topics {
@@ -182,5 +184,6 @@ bool Publisher::wait_for_acknowledgements(std::chrono::milliseconds timeout) noe
 }
 
 std::uint64_t Publisher::write_errors() const noexcept { return impl_->write_errors(); }
+std::int32_t Publisher::denoised_writer() const noexcept { return impl_->denoised_writer(); }
 
 }  // namespace gyrod::bus

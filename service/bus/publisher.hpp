@@ -60,6 +60,9 @@ class Publisher {
   /// Messages that DDS did not take.
   [[nodiscard]] std::uint64_t write_errors() const noexcept;
 
+  /// The DDS handle of the writer of single denoised samples. For the other classes of bus/.
+  [[nodiscard]] std::int32_t denoised_writer() const noexcept;
+
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

@@ -19,6 +19,7 @@ std::vector<prometheus::MetricFamily> Collector::Collect() const {
   const stream::EngineSnapshot engine = view_.engine();
   add_process_metrics(options_.version, options_.start_time_s, options_.uptime_s(), families);
   add_bus_metrics(view_.bus(), view_.readiness(), families);
+  add_fleet_metrics(view_.fleet(), families);
   add_engine_metrics(engine, families);
   add_health_totals(engine, families);
   const std::vector<stream::ChannelSnapshot> shown = view_.channels(options_.max_channel_series);

@@ -110,6 +110,23 @@ void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Familie
   }
 }
 
+void add_fleet_metrics(const FleetSnapshot& fleet, Families& families) {
+  prometheus::MetricFamily active = family(
+      "gyrod_shard_active", "1 while the shard is served, 0 while its daemon joins the others.", kGauge);
+  active.metric.push_back(metric(kGauge, fleet.active ? 1.0 : 0.0, {{"shard", fleet.shard}}));
+  families.push_back(std::move(active));
+  add(families, kGauge, "gyrod_shard_peers", "Other daemons that write to the same topic.", fleet.peers);
+  add(families, kGauge, "gyrod_shard_twins", "Other daemons that serve the same shard.", fleet.twins);
+  add(families, kGauge, "gyrod_shard_overlapping_peers",
+      "Daemons of another shard count whose shard overlaps this one.", fleet.overlapping);
+  if (fleet.active)
+    add(families, kGauge, "gyrod_shards_missing", "Shards that nobody serves in full.", fleet.missing);
+  add(families, kCounter, "gyrod_shard_disputes_total",
+      "Times a daemon turned up that may have served the same sensors at the same time.", fleet.disputes);
+  add(families, kCounter, "gyrod_shard_foreign_samples_total",
+      "Samples passed over, since other daemons serve their sensors.", fleet.foreign_samples);
+}
+
 void add_process_metrics(const std::string& version, double start_time_s, double uptime_s,
                          Families& families) {
   prometheus::MetricFamily build = family("gyrod_build_info", "Always 1; the version is a label.", kGauge);

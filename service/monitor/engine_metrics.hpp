@@ -17,6 +17,8 @@ void add_engine_metrics(const stream::EngineSnapshot& engine,
 void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness,
                      std::vector<prometheus::MetricFamily>& families);
 
+void add_fleet_metrics(const FleetSnapshot& fleet, std::vector<prometheus::MetricFamily>& families);
+
 /// @param start_time_s when the process began, s since the Unix epoch
 void add_process_metrics(const std::string& version, double start_time_s, double uptime_s,
                          std::vector<prometheus::MetricFamily>& families);

@@ -29,17 +29,30 @@ struct BusSnapshot {
   std::optional<std::uint64_t> refused_peers = {};  ///< with DDS Security: programs that were not let in
 };
 
+/// The daemons that share the sensors, as monitoring sees them at one moment.
+struct FleetSnapshot {
+  std::string shard = "1/1";          ///< "index/count"
+  bool active = false;                ///< serves it; false while it joins the others
+  std::size_t peers = 0;              ///< other daemons that serve
+  std::size_t twins = 0;              ///< those that serve the same shard
+  std::size_t overlapping = 0;        ///< those of another count whose shard overlaps ours
+  std::size_t missing = 0;            ///< shards that nobody serves in full
+  std::uint64_t disputes = 0;         ///< times one turned up that may have served what we served
+  std::uint64_t foreign_samples = 0;  ///< came in and were passed over: of sensors that others serve
+};
+
 /// Whether work can be done now.
 struct Readiness {
   bool ready = false;
   std::string reason;  ///< why not, in a few words, e.g. "stopping"; unused when ready
 };
 
-/// All four must be set.
+/// All five must be set.
 struct View {
   std::function<stream::EngineSnapshot()> engine;
   std::function<std::vector<stream::ChannelSnapshot>(std::size_t limit)> channels;
   std::function<BusSnapshot()> bus;
+  std::function<FleetSnapshot()> fleet;
   std::function<Readiness()> readiness;
 };
 

@@ -11,6 +11,7 @@ void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.domain", bus.domain);
   visit("bus.network", bus.network);
   visit("bus.max_batch_samples", bus.max_batch_samples);
+  visit("bus.shard", bus.shard);
   visit("bus.topics.raw", bus.topics.raw);
   visit("bus.topics.raw_batch", bus.topics.raw_batch);
   visit("bus.topics.denoised", bus.topics.denoised);

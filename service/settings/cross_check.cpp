@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "fleet/shard.hpp"
 #include "ros2/names.hpp"
 #include "settings/document.hpp"
 #include "settings/enum_names.hpp"
@@ -123,6 +124,14 @@ class CrossCheck {
     }
   }
 
+  void check_shard() {
+    const std::string& shard = settings_.bus.shard;
+    require(shard.empty() || fleet::parse_shard(shard).has_value(), "bus.shard", shard,
+            "\"\", or INDEX/COUNT with 1 <= INDEX <= COUNT <= " + std::to_string(fleet::kMaxShards) +
+                ", e.g. \"2/3\"",
+            {});
+  }
+
   void check_ros2() {
     const Ros2Settings& ros2 = settings_.bus.ros2;
     check_suffix("bus.ros2.denoised_suffix", ros2.denoised_suffix);
@@ -227,6 +236,7 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_health();
   check.check_screening();
   check.check_topics();
+  check.check_shard();
   check.check_ros2();
   check.check_network(directory);
   check.check_calibrations(directory);

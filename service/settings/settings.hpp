@@ -71,6 +71,8 @@ struct BusSettings {
   /// "loopback", "default", or the path of a Cyclone DDS XML file (made absolute by loading).
   std::string network = "loopback";
   std::size_t max_batch_samples = 1024;
+  /// "index/count" (fleet/shard.hpp); empty: all sensors.
+  std::string shard;
   TopicSettings topics;
   InputSettings input;
   OutputSettings output;

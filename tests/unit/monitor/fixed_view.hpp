@@ -14,6 +14,7 @@ struct Shown {
   stream::EngineSnapshot engine;
   std::vector<stream::ChannelSnapshot> channels;
   BusSnapshot bus;
+  FleetSnapshot fleet;
   Readiness readiness{.ready = true, .reason = ""};
 };
 
@@ -120,7 +121,15 @@ inline Shown busy_gyrod() {
                .ros2_refused_topics = 25,
                .ros2_dropped_messages = 26,
                .certificate_expiry_s = 1.8e9,
-               .refused_peers = 27};
+               .refused_peers = 37};
+  shown.fleet = {.shard = "2/3",
+                 .active = true,
+                 .peers = 27,
+                 .twins = 28,
+                 .overlapping = 29,
+                 .missing = 30,
+                 .disputes = 31,
+                 .foreign_samples = 32};
   return shown;
 }
 
@@ -134,6 +143,7 @@ inline View view_of(const Shown& shown) {
                 return channels;
               },
           .bus = [&shown] { return shown.bus; },
+          .fleet = [&shown] { return shown.fleet; },
           .readiness = [&shown] { return shown.readiness; }};
 }
 

@@ -86,11 +86,26 @@ TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
                                                   {"gyrod_ros2_refused_topics_total", 25},
                                                   {"gyrod_ros2_dropped_messages_total", 26},
                                                   {"gyrod_bus_certificate_expiry_timestamp_seconds", 1.8e9},
-                                                  {"gyrod_bus_refused_peers_total", 27},
+                                                  {"gyrod_bus_refused_peers_total", 37},
+                                                  {"gyrod_shard_peers", 27},
+                                                  {"gyrod_shard_twins", 28},
+                                                  {"gyrod_shard_overlapping_peers", 29},
+                                                  {"gyrod_shards_missing", 30},
+                                                  {"gyrod_shard_disputes_total", 31},
+                                                  {"gyrod_shard_foreign_samples_total", 32},
                                                   {"gyrod_uptime_seconds", 42.5},
                                                   {"process_start_time_seconds", 1.7e9}};
   for (const auto& [name, value] : expected) EXPECT_EQ(value_of(families, name), value) << name;
   EXPECT_EQ(value_of(families, "gyrod_build_info", {{"version", "1.2.3"}}), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_shard_active", {{"shard", "2/3"}}), 1.0);
+}
+
+TEST(Metrics, AShardThatIsNotServedYetDoesNotJudgeTheOthers) {
+  Shown shown = busy_gyrod();
+  shown.fleet.active = false;
+  const auto families = families_of(shown);
+  EXPECT_EQ(value_of(families, "gyrod_shard_active", {{"shard", "2/3"}}), 0.0);
+  EXPECT_EQ(find_family(families, "gyrod_shards_missing"), nullptr);
 }
 
 TEST(Metrics, RefusedSamplesAreCountedUnderEveryReasonAndAddUp) {
