@@ -199,10 +199,13 @@ TEST_P(WhileTheCountChanges, NoSampleComesTwiceAndTheHolesAreAsPromised) {
 }
 
 std::string name_of(const ::testing::TestParamInfo<Change>& change) {
-  return std::to_string(change.param.lost_per_mille) + "_per_mille";
+  return std::string(change.param.signal == SIGKILL ? "killed" : "stopped") + "_at_" +
+         std::to_string(change.param.lost_per_mille) + "_per_mille";
 }
 INSTANTIATE_TEST_SUITE_P(Shards, WhileTheCountChanges,
-                         ::testing::Values(Change{0, 2.0, SIGKILL}, Change{200, 10.0, SIGTERM}), name_of);
+                         ::testing::Values(Change{0, 2.0, SIGKILL}, Change{0, 10.0, SIGTERM},
+                                           Change{200, 10.0, SIGTERM}),
+                         name_of);
 
 TEST_F(Shards, AShardThatIsServedTwiceAndOneThatIsNotAreTold) {
   const auto first = start_shard(2, "1/2");
