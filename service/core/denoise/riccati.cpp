@@ -1,10 +1,8 @@
 #include "core/denoise/riccati.hpp"
 
 #include <cassert>
-#include <cmath>
-#include <utility>
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 
 namespace gyrod::core {
 namespace {
@@ -27,63 +25,26 @@ class Doubling {
     Matrix G = h_ * h_.transpose() / r_;
     Matrix X = Q_;
     for (int step = 0; step < kMaxDoublings; ++step) {
-      Matrix W_a = a;
-      Matrix W_G = G;
-      divide(identity + product(G, X), W_a, W_G);
-      const Matrix growth = product(product(W_a.transpose(), X), a);
-      X = mean_of_triangles(X + growth);
+      const Matrix W = identity + G * X;
+      const Eigen::PartialPivLU<Matrix> lu(W);
+      const Matrix W_a = lu.solve(a);
+      const Matrix W_G = lu.solve(G);
+      const Matrix growth = W_a.transpose() * X * a;
+      X += growth;
+      X = (Scalar(0.5) * (X + X.transpose())).eval();
       if (!X.allFinite()) return false;
       if (growth.norm() <= kSettled * X.norm()) {
         answer = X.template cast<double>();
         return solves(X);
       }
-      G = mean_of_triangles(G + product(product(a, W_G), a.transpose()));
-      a = product(a, W_a);
+      G += a * W_G * a.transpose();
+      G = (Scalar(0.5) * (G + G.transpose())).eval();
+      a = (a * W_a).eval();
     }
     return false;
   }
 
  private:
-  // Small products and sums that Eigen writes out element by element: once, not in every place, or this file takes minutes to compile.
-  [[gnu::noinline]] static Matrix product(const Matrix& a, const Matrix& b) noexcept { return a * b; }
-  [[gnu::noinline]] static Matrix mean_of_triangles(const Matrix& X) noexcept {
-    return Scalar(0.5) * (X + X.transpose());
-  }
-
-  /// a <- W^-1 a and G <- W^-1 G by elimination, the largest element of the column leading. A singular W leaves what is not finite.
-  [[gnu::noinline]] static void divide(Matrix W, Matrix& a, Matrix& G) noexcept {
-    const Eigen::Index size = W.rows();
-    for (Eigen::Index k = 0; k < size; ++k) {
-      Eigen::Index pivot = k;
-      for (Eigen::Index i = k + 1; i < size; ++i) {
-        if (std::abs(W(i, k)) > std::abs(W(pivot, k))) pivot = i;
-      }
-      if (pivot != k) {
-        for (Matrix* matrix : {&W, &a, &G}) exchange_rows(*matrix, pivot, k);
-      }
-      for (Eigen::Index i = k + 1; i < size; ++i) {
-        const Scalar factor = W(i, k) / W(k, k);
-        for (Matrix* matrix : {&W, &a, &G}) subtract_row(*matrix, factor, k, i);
-      }
-    }
-    for (Eigen::Index k = size; k-- > 0;) {
-      const Scalar inverse = Scalar(1) / W(k, k);
-      for (Matrix* matrix : {&a, &G}) {
-        for (Eigen::Index j = 0; j < size; ++j) (*matrix)(k, j) *= inverse;
-        for (Eigen::Index i = 0; i < k; ++i) subtract_row(*matrix, W(i, k), k, i);
-      }
-    }
-  }
-
-  /// row_to -= factor * row_from.
-  static void subtract_row(Matrix& matrix, Scalar factor, Eigen::Index from, Eigen::Index to) noexcept {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(to, j) -= factor * matrix(from, j);
-  }
-
-  static void exchange_rows(Matrix& matrix, Eigen::Index i, Eigen::Index k) noexcept {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) std::swap(matrix(i, j), matrix(k, j));
-  }
-
   /// Substitutes the answer back.
   [[nodiscard]] bool solves(const Matrix& X) const noexcept {
     constexpr Scalar kTolerance = 1e-6;
@@ -95,8 +56,8 @@ class Doubling {
     const Scalar s = h_.dot(X * h_) + r_;
     const Vector gain = X * h_ / s;
     const Matrix keep = Matrix::Identity(X.rows(), X.cols()) - gain * h_.transpose();
-    const Matrix filtered = product(product(keep, X), keep.transpose()) + r_ * gain * gain.transpose();
-    return product(product(A_, filtered), A_.transpose()) + Q_;
+    const Matrix filtered = keep * X * keep.transpose() + r_ * gain * gain.transpose();
+    return A_ * filtered * A_.transpose() + Q_;
   }
 
   Matrix A_;
