@@ -39,6 +39,11 @@ void EngineInlet::end(std::string_view sensor) noexcept {
   engine_.end_of_stream(sensor);
 }
 
+void EngineInlet::fall_silent(std::string_view sensor, stream::ChannelState why) noexcept {
+  const std::lock_guard lock(mutex_);
+  engine_.fall_silent(sensor, why);
+}
+
 void EngineInlet::tend() noexcept {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (lock.owns_lock()) engine_.tend();
@@ -61,11 +66,19 @@ void FeedFromBus::on_end(std::string_view sensor) noexcept {
   if (!imu_topics_.claims(sensor)) inlet_.end(sensor);
 }
 
+void FeedFromBus::on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept {
+  if (!imu_topics_.claims(sensor)) inlet_.fall_silent(sensor, why);
+}
+
 bool FeedFromRos2::on_sample(std::string_view sensor, const stream::Sample& sample) noexcept {
   return inlet_.push(sensor, {&sample, 1}) == 1;
 }
 
 void FeedFromRos2::on_end(std::string_view sensor) noexcept { inlet_.end(sensor); }
+
+void FeedFromRos2::on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept {
+  inlet_.fall_silent(sensor, why);
+}
 
 void FeedFromRos2::on_topic(std::string_view topic, const ros2::Outputs& outputs) noexcept {
   spdlog::info("ROS 2: reads {}, writes {}", topic, outputs.denoised);

@@ -21,6 +21,8 @@ class EngineInlet {
   /// As Engine::push(), of sensors that are served here.
   std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   void end(std::string_view sensor) noexcept;
+  /// As Engine::fall_silent().
+  void fall_silent(std::string_view sensor, stream::ChannelState why) noexcept;
   /// As Engine::tend(), unless somebody pushes at the moment: then at the next call.
   void tend() noexcept;
 
@@ -50,6 +52,7 @@ class FeedFromBus final : public bus::SampleHandler {
   /// An id that is the name of a ROS 2 topic is taken: such samples are refused and counted as of no id.
   void on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept override;
   void on_end(std::string_view sensor) noexcept override;
+  void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override;
 
  private:
   EngineInlet& inlet_;
@@ -62,6 +65,7 @@ class FeedFromRos2 final : public bus::ImuHandler {
   explicit FeedFromRos2(EngineInlet& inlet) : inlet_(inlet) {}
   [[nodiscard]] bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override;
   void on_end(std::string_view sensor) noexcept override;
+  void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override;
   void on_topic(std::string_view topic, const ros2::Outputs& outputs) noexcept override;
   void on_refused_topic(std::string_view reason) noexcept override;
 

@@ -17,6 +17,7 @@ Interrupt::Interrupt() {
   hold();
   // A reader that goes away (a pipe, a socket) is an error of that write, not the end of the process.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // likewise a file that may not grow
 }
 
 void Interrupt::let_through() noexcept { pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); }

@@ -50,6 +50,7 @@ bool NoiseStateFile::save(const settings::NoiseStates& states) {
     file.close();
     in_trouble_ = false;
   } catch (const files::FileError& error) {
+    errors_.fetch_add(1, std::memory_order_relaxed);
     if (!std::exchange(in_trouble_, true))
       warn_(std::string(error.what()) + "; learned noise is not kept across a restart");
   }

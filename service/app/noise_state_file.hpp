@@ -1,7 +1,9 @@
 /// The file that keeps what was learned of the sensors' noise across restarts.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -30,12 +32,16 @@ class NoiseStateFile {
   /// Trouble is warned about once, until a save has worked again. @return whether it worked; true if there is nothing to do
   bool save(const settings::NoiseStates& states);
 
+  /// Times it could not be saved. Any thread.
+  [[nodiscard]] std::uint64_t errors() const noexcept { return errors_.load(std::memory_order_relaxed); }
+
  private:
   void put_aside(const std::string& reason);
 
   std::string path_;
   Warn warn_;
   bool in_trouble_ = false;
+  std::atomic<std::uint64_t> errors_{0};
 };
 
 }  // namespace gyrod::app

@@ -15,6 +15,26 @@ bus::Reliability reliability(settings::Reliability setting) noexcept {
                                                      : bus::Reliability::kBestEffort;
 }
 
+bus::InputReliability input_reliability(settings::InputReliability setting) noexcept {
+  switch (setting) {
+    case settings::InputReliability::kReliable:
+      return bus::InputReliability::kReliable;
+    case settings::InputReliability::kBestEffort:
+      return bus::InputReliability::kBestEffort;
+    case settings::InputReliability::kAuto:
+      break;
+  }
+  return bus::InputReliability::kAuto;
+}
+
+bus::QosProfile profile(const settings::QosSettings& settings) {
+  const bool automatic = settings.liveliness == settings::Liveliness::kAutomatic;
+  return {.deadline_s = settings.deadline_s,
+          .liveliness = automatic ? bus::Liveliness::kAutomatic : bus::Liveliness::kManualByTopic,
+          .lease_s = settings.liveliness_lease_s,
+          .partitions = settings.partitions};
+}
+
 core::ScreeningRule rule_of(settings::Screening screening) noexcept {
   switch (screening) {
     case settings::Screening::kPaper:
@@ -41,7 +61,7 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
                     .health = settings.topics.health,
                     .realtime = settings.topics.realtime,
                     .realtime_batch = settings.topics.realtime_batch};
-  options.input_reliability = reliability(settings.input.reliability);
+  options.input_reliability = input_reliability(settings.input.reliability);
   const bool keep_all = settings.input.history_depth == 0;
   options.input_history = keep_all ? bus::History::kKeepAll : bus::History::kKeepLast;
   if (!keep_all) options.input_depth = settings.input.history_depth;
@@ -49,14 +69,23 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
   options.max_instances = settings.input.max_sensors;
   options.output_reliability = reliability(settings.output.reliability);
   options.output_depth = settings.output.history_depth;
+  options.input_past = settings.input.durability == settings::Durability::kTransientLocal;
+  options.ownership_strength = settings.output.ownership_strength;
+  options.takeover_s = settings.output.takeover_s;
   options.max_batch_samples = settings.max_batch_samples;
   options.shard = fleet::parse_shard(settings.shard);
+  options.input = profile(settings.input.qos);
+  options.output = profile(settings.output.qos);
   options.ros2.topics = settings.ros2.topics;
   options.ros2.outputs = {.denoised_suffix = settings.ros2.denoised_suffix,
                           .realtime_suffix = settings.ros2.realtime_suffix};
+  options.ros2.input_reliability = input_reliability(settings.ros2.input_reliability);
   options.ros2.output_reliability = reliability(settings.ros2.output_reliability);
   options.ros2.depth = settings.ros2.history_depth;
   options.ros2.max_topics = settings.ros2.max_topics;
+  options.ros2.input = profile(settings.ros2.input_qos);
+  options.ros2.output = profile(settings.ros2.output_qos);
+  options.ros2.output.partitions = options.ros2.input.partitions;
   return options;
 }
 
@@ -67,11 +96,16 @@ bus::BusOptions live_bus_options(const settings::Settings& settings) {
   return options;
 }
 
-stream::EngineOptions live_engine_options(const settings::Settings& settings, NoiseSources& noise) {
+stream::EngineOptions live_engine_options(const settings::Settings& settings, NoiseSources& noise,
+                                          PublishedFile& published) {
   stream::EngineOptions options = settings.engine;
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   options.workers = settings.workers > 0 ? settings.workers : cores;
   noise.attach_to(options);
+  if (settings.bus.input.durability == settings::Durability::kTransientLocal)
+    options.published_before = [&published](std::string_view sensor) {
+      return published.take_before(sensor);
+    };
   return options;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/noise_sources.hpp"
+#include "app/published_file.hpp"
 #include "bus/bus_options.hpp"
 #include "core/denoise/denoiser.hpp"
 #include "core/joint/joint_options.hpp"
@@ -17,9 +18,9 @@ namespace gyrod::app {
 [[nodiscard]] bus::BusOptions live_bus_options(const settings::Settings& settings);
 
 /// For the daemon: as many workers as the settings say, or as there are processor cores.
-/// @param noise has to outlive the engine
+/// @param noise, published have to outlive the engine
 [[nodiscard]] stream::EngineOptions live_engine_options(const settings::Settings& settings,
-                                                        NoiseSources& noise);
+                                                        NoiseSources& noise, PublishedFile& published);
 
 /// For one recording: the same windows and limits, computed in the calling thread.
 /// @param noise has to outlive the engine

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include <spdlog/fmt/chrono.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -94,6 +95,23 @@ void announce_security(const std::optional<bus::Identity>& identity) {
                fmt::gmtime(std::chrono::system_clock::to_time_t(identity->expires_at)));
 }
 
+void announce_restart(const settings::Settings& settings, const Service& service) {
+  const bool reads_past = settings.bus.input.durability == settings::Durability::kTransientLocal;
+  const std::string& file = settings.restart.published_file;
+  if (reads_past) {
+    spdlog::info("reads what sensors keep; {} sensors were published before this start",
+                 service.published().remembered());
+  }
+  if (reads_past && file.empty())
+    spdlog::warn(
+        "bus.input.durability is \"transient_local\" and restart.published_file is empty: what sensors "
+        "keep is published again after a restart");
+  const auto& output = settings.bus.output;
+  if (output.ownership_strength == 0) return;
+  spdlog::info("one of several daemons: strength {}, takes over after {} s", output.ownership_strength,
+               output.takeover_s);
+}
+
 void announce(const settings::Settings& settings, const Service& service) {
   const auto& topics = settings.bus.topics;
   spdlog::info("gyrod {}: domain {}, network {}, {} workers", version(), settings.bus.domain,
@@ -108,6 +126,7 @@ void announce(const settings::Settings& settings, const Service& service) {
   spdlog::info("method {}; noise: {}, {} calibrations, {} sensors remembered",
                settings::name_of(settings.denoise.method), settings::name_of(settings.noise.source),
                service.noise().calibrations(), service.noise().remembered());
+  announce_restart(settings, service);
   for (const std::string& line : settings::unused_keys(settings)) spdlog::warn("unused: {}", line);
   if (service.monitor_port() == 0) return;
   spdlog::info("metrics at http://{}:{}/metrics", settings.monitor.address, service.monitor_port());
@@ -137,9 +156,12 @@ void serve(Service& service, SecurityLog& security, Interrupt& interrupt) {
   constexpr unsigned kTicksPerSave = 60;
   StatusLog status;
   unsigned ticks = 0;
+  auto ticked = std::chrono::steady_clock::now();
   while (!interrupt.wait_for(kTick)) {
     (void)sd_notify(0, "WATCHDOG=1");
-    service.tend();
+    const auto before = std::exchange(ticked, std::chrono::steady_clock::now());
+    // Who was stopped for a while has heard nobody; what came meanwhile is pushed before the next tick.
+    if (ticked - before < 2 * kTick) service.tend();
     service.judge();
     status.tick(service.snapshot(), service.matched_writers());
     security.tick(service);

@@ -35,6 +35,12 @@ void SendFlags::add_to(CLI::App& command) {
   command.add_option("--wait", wait_s, "Seconds to wait for a reader before giving up [10]")
       ->type_name("S")
       ->check(in_range(0.0, 86400.0));
+  command
+      .add_option(
+          "--keep", keep,
+          "Samples to keep for readers that come later, such as a gyrod that restarts (transient local) [0]")
+      ->type_name("N")
+      ->check(in_range(0, 1000000));
   speed.add_to(command);
 }
 
@@ -45,7 +51,7 @@ SampleSender::SampleSender(const settings::BusSettings& settings, const SendFlag
       interrupt_(interrupt),
       pacer_(flags.speed.speed, interrupt),
       domain_(settings.domain, settings.network, settings.security.folder),
-      writer_(domain_, bus_options(settings), flags.batch) {
+      writer_(domain_, bus_options(settings), flags.batch, (flags.keep + flags.batch - 1) / flags.batch) {
   constexpr std::chrono::milliseconds kLook{100};
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::duration<double>(flags.wait_s);
   while (!writer_.wait_for_subscriber(kLook) && !interrupt.requested()) {

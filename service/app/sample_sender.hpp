@@ -24,9 +24,10 @@ struct SendFlags {
   std::size_t sensors = 1;  ///< more than one: `sensor` and "_1", "_2", ...
   std::size_t batch = 1;
   double wait_s = 10.0;
+  std::size_t keep = 0;  ///< samples
   SpeedFlag speed;
 
-  /// Adds --batch, --wait and --speed; --sensor differs from command to command.
+  /// Adds --batch, --wait, --keep and --speed; --sensor differs from command to command.
   void add_to(CLI::App& command);
 };
 

@@ -1,11 +1,15 @@
 #include "app/service.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <spdlog/spdlog.h>
 
 #include "app/errors.hpp"
 #include "app/options.hpp"
+#include "bus/log.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -49,19 +53,41 @@ void ReleaseToBus::in_parts(std::span<const stream::DenoisedSample> samples,
 void ReleaseToBus::on_samples(std::string_view sensor,
                               std::span<const stream::DenoisedSample> samples) noexcept {
   if (imu_topics_.publish(sensor, samples)) return;
-  in_parts(samples, [&](const auto& part) { publisher_.publish(sensor, part); });
+  if (standby_ != nullptr) return standby_->release(sensor, samples);
+  publish(sensor, samples);
 }
 
 void ReleaseToBus::on_realtime(std::string_view sensor,
                                std::span<const stream::DenoisedSample> samples) noexcept {
   if (imu_topics_.publish_realtime(sensor, samples)) return;
+  if (standby_ != nullptr) return standby_->release_realtime(sensor, samples);
+  publish_realtime(sensor, samples);
+}
+
+void ReleaseToBus::publish(std::string_view sensor,
+                           std::span<const stream::DenoisedSample> samples) noexcept {
+  in_parts(samples, [&](const auto& part) { publisher_.publish(sensor, part); });
+  if (!samples.empty()) published_.note(sensor, samples.back());
+}
+
+void ReleaseToBus::publish_realtime(std::string_view sensor,
+                                    std::span<const stream::DenoisedSample> samples) noexcept {
   in_parts(samples, [&](const auto& part) { publisher_.publish_realtime(sensor, part); });
 }
 
-void ReleaseToBus::on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
-  publisher_.publish_report(sensor, report);
+void ReleaseToBus::end(std::string_view sensor) noexcept {
+  publisher_.unregister_sensor(sensor);
+  published_.forget(sensor);
 }
-void ReleaseToBus::on_end(std::string_view sensor) noexcept { publisher_.unregister_sensor(sensor); }
+
+void ReleaseToBus::on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
+  if (standby_ == nullptr || standby_->publishes(sensor)) publisher_.publish_report(sensor, report);
+}
+
+void ReleaseToBus::on_end(std::string_view sensor) noexcept {
+  if (standby_ != nullptr) return standby_->end(sensor);
+  end(sensor);
+}
 
 void ReleaseToBus::on_health(std::string_view sensor, const stream::SensorHealth& before,
                              const stream::SensorHealth& now) noexcept {
@@ -87,21 +113,29 @@ void ReleaseToBus::let_readers_catch_up(std::size_t samples) noexcept {
 Service::Service(const settings::Settings& settings)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
       shard_(bus_options(settings.bus).shard.value_or(fleet::Shard{})),
+      keeps_noise_(!settings.noise.state_file.empty()),
       noise_file_(settings.noise.state_file, [](const std::string& line) { spdlog::warn(line); }),
       noise_(settings.noise, noise_file_.load()),
       domain_(settings.bus.domain, settings.bus.network, settings.bus.security.folder),
       publisher_(domain_, live_bus_options(settings)),
       imu_topics_(domain_, live_bus_options(settings)),
-      release_(publisher_, imu_topics_, settings.bus.output.history_depth),
-      engine_(live_engine_options(settings, noise_), method(settings), release_),
+      published_(settings.restart.published_file, settings.engine.max_channels,
+                 [](const std::string& line) { spdlog::warn(line); }),
+      release_(publisher_, imu_topics_, published_, settings.bus.output.history_depth),
+      engine_(live_engine_options(settings, noise_, published_), method(settings), release_),
       inlet_(engine_),
       feed_(inlet_, imu_topics_),
       imu_feed_(inlet_),
       subscriber_(domain_, bus_options(settings.bus), feed_),
       imu_subscriber_(imu_topics_, imu_feed_),
       fleet_link_(inlet_),
-      fleet_(domain_, publisher_, live_bus_options(settings), fleet_link_) {
+      fleet_(domain_, publisher_, live_bus_options(settings), fleet_link_),
+      mismatch_watch_(domain_, live_bus_options(settings)) {
   if (domain_.identity()) peers_.emplace(domain_);
+  if (settings.bus.output.ownership_strength > 0) {
+    standby_.emplace(domain_, live_bus_options(settings), release_);
+    release_.go_through(&*standby_);
+  }
   if (!settings.monitor.enabled) return;
   try {
     monitor_.emplace(monitor_options(settings.monitor), view());
@@ -126,6 +160,7 @@ bool Service::stop() {
   subscriber_.stop();
   fleet_.leave();  // takes no more from here on: others may
   const bool denoised = engine_.stop(stop_deadline_);
+  if (standby_) standby_->stop();
   keep_noise();
   publisher_.wait_for_acknowledgements(kLastWord);
   imu_topics_.wait_for_acknowledgements(kLastWord);
@@ -144,11 +179,13 @@ void Service::keep_noise() {
 }
 
 monitor::View Service::view() {
-  return {.engine = [this] { return engine_.snapshot(); },
-          .channels = [this](std::size_t limit) { return engine_.channels(limit); },
-          .bus = [this] { return bus_snapshot(); },
-          .fleet = [this] { return fleet_snapshot(); },
-          .readiness = [this] { return readiness(); }};
+  monitor::View view{.engine = [this] { return engine_.snapshot(); },
+                     .channels = [this](std::size_t limit) { return engine_.channels(limit); },
+                     .bus = [this] { return bus_snapshot(); },
+                     .fleet = [this] { return fleet_snapshot(); },
+                     .readiness = [this] { return readiness(); }};
+  if (keeps_noise_) view.state_file_errors = [this] { return noise_file_.errors(); };
+  return view;
 }
 
 monitor::Readiness Service::readiness() const {
@@ -172,11 +209,22 @@ monitor::FleetSnapshot Service::fleet_snapshot() const {
           .foreign_samples = inlet_.foreign()};
 }
 
+std::optional<monitor::StandbySnapshot> Service::standby_snapshot() const {
+  if (!standby_) return std::nullopt;
+  const bus::StandbySnapshot now = standby_->snapshot();
+  return monitor::StandbySnapshot{now.others, now.sensors, now.held, now.let_go, now.takeovers};
+}
+
 monitor::BusSnapshot Service::bus_snapshot() const {
   const bus::ImuTopicsSnapshot ros2 = imu_topics_.snapshot();
   const auto& identity = domain_.identity();
+  const bus::BrokenPromises broken = subscriber_.broken_promises();
+  std::vector<monitor::IncompatiblePeers> incompatible;
+  for (const bus::PeerMismatch& kind : mismatch_watch_.mismatches())
+    incompatible.push_back({std::string(kind.direction), std::string(kind.policy), kind.peers});
   return {.matched_writers = subscriber_.matched_writers() + ros2.matched_writers,
-          .malformed_messages = subscriber_.malformed_messages() + ros2.malformed_messages,
+          .malformed_messages =
+              subscriber_.malformed_messages() + ros2.malformed_messages + bus::unreadable_messages(),
           .refusals = subscriber_.refusals(),
           .write_errors = publisher_.write_errors() + ros2.write_errors,
           .ros2_topics = ros2.topics,
@@ -185,7 +233,11 @@ monitor::BusSnapshot Service::bus_snapshot() const {
           .certificate_expiry_s =
               identity ? std::optional(static_cast<double>(identity->expires_at.time_since_epoch().count()))
                        : std::nullopt,
-          .refused_peers = peers_ ? std::optional(peers_->refused()) : std::nullopt};
+          .refused_peers = peers_ ? std::optional(peers_->refused()) : std::nullopt,
+          .deadlines_missed = broken.deadlines_missed + ros2.broken_promises.deadlines_missed,
+          .liveliness_lost = broken.liveliness_lost + ros2.broken_promises.liveliness_lost,
+          .incompatible_peers = std::move(incompatible),
+          .standby = standby_snapshot()};
 }
 
 }  // namespace gyrod::app

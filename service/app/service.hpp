@@ -12,12 +12,15 @@
 #include "app/fleet_link.hpp"
 #include "app/noise_sources.hpp"
 #include "app/noise_state_file.hpp"
+#include "app/published_file.hpp"
 #include "bus/domain.hpp"
 #include "bus/fleet_members.hpp"
 #include "bus/imu_subscriber.hpp"
 #include "bus/imu_topics.hpp"
+#include "bus/mismatch_watch.hpp"
 #include "bus/peer_watch.hpp"
 #include "bus/publisher.hpp"
+#include "bus/standby.hpp"
 #include "bus/subscriber.hpp"
 #include "monitor/monitor.hpp"
 #include "settings/settings.hpp"
@@ -28,11 +31,18 @@ namespace gyrod::app {
 /// What the engine releases goes to DDS, where it came from: to gyrod's own topics, or, of ROS 2 sensors, to theirs. While the daemon
 /// runs, this waits for no reader. A stop releases in one go what took seconds to come in, more than the writers keep for readers that
 /// are behind; so it waits for them, within bounds.
-class ReleaseToBus final : public stream::Sink {
+///
+/// Where several daemons have the same output, a standby between engine and publisher decides which samples this one publishes; ROS 2
+/// topics know no such thing.
+class ReleaseToBus final : public stream::Sink, public bus::Standby::Sink {
  public:
   /// @param depth messages that the writers keep of a sensor
-  ReleaseToBus(bus::Publisher& publisher, bus::ImuTopics& imu_topics, std::size_t depth)
-      : publisher_(publisher), imu_topics_(imu_topics), depth_(depth) {}
+  ReleaseToBus(bus::Publisher& publisher, bus::ImuTopics& imu_topics, PublishedFile& published,
+               std::size_t depth)
+      : publisher_(publisher), imu_topics_(imu_topics), published_(published), depth_(depth) {}
+
+  /// @param standby none, or one that this is the sink of. Before the engine's first sample
+  void go_through(bus::Standby* standby) noexcept { standby_ = standby; }
 
   /// From now on waits for readers, in all no longer than that.
   void wait_for_readers(std::chrono::milliseconds patience) noexcept {
@@ -48,6 +58,12 @@ class ReleaseToBus final : public stream::Sink {
                  const stream::SensorHealth& now) noexcept override;
   void on_forgotten(std::string_view sensor) noexcept override;
 
+  void publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept override;
+  void publish_realtime(std::string_view sensor,
+                        std::span<const stream::DenoisedSample> samples) noexcept override;
+  void end(std::string_view sensor) noexcept override;
+  void assert_liveliness() noexcept override { publisher_.assert_liveliness(); }
+
  private:
   template <class Publish>
   void in_parts(std::span<const stream::DenoisedSample> samples, const Publish& publish) noexcept;
@@ -55,6 +71,8 @@ class ReleaseToBus final : public stream::Sink {
 
   bus::Publisher& publisher_;
   bus::ImuTopics& imu_topics_;
+  PublishedFile& published_;
+  bus::Standby* standby_ = nullptr;
   std::size_t depth_;
   std::atomic<std::int64_t> patience_ns_{0};
   std::atomic<std::size_t> unconfirmed_{0};  ///< samples since the readers last confirmed all
@@ -91,6 +109,7 @@ class Service {
   /// Writes the noise state file if anything has been learned since the last time.
   void keep_noise();
   [[nodiscard]] const NoiseSources& noise() const noexcept { return noise_; }
+  [[nodiscard]] const PublishedFile& published() const noexcept { return published_; }
   [[nodiscard]] std::size_t workers() const noexcept { return engine_.options().workers; }
   /// The HTTP port; 0 without a monitor.
   [[nodiscard]] std::uint16_t monitor_port() const noexcept {
@@ -102,10 +121,12 @@ class Service {
   [[nodiscard]] monitor::BusSnapshot bus_snapshot() const;
   [[nodiscard]] monitor::FleetSnapshot fleet_snapshot() const;
   [[nodiscard]] monitor::Readiness readiness() const;
+  [[nodiscard]] std::optional<monitor::StandbySnapshot> standby_snapshot() const;
 
   std::chrono::milliseconds stop_deadline_;
   fleet::Shard shard_;
   std::atomic<bool> ready_{false};
+  bool keeps_noise_;
   NoiseStateFile noise_file_;
   NoiseSources noise_;
   std::uint64_t noise_kept_ = 0;  ///< revision of noise_ that the file holds
@@ -113,7 +134,9 @@ class Service {
   std::optional<bus::PeerWatch> peers_;  ///< with DDS Security
   bus::Publisher publisher_;
   bus::ImuTopics imu_topics_;
+  PublishedFile published_;
   ReleaseToBus release_;
+  std::optional<bus::Standby> standby_;
   stream::Engine engine_;
   EngineInlet inlet_;
   FeedFromBus feed_;
@@ -122,6 +145,7 @@ class Service {
   bus::ImuSubscriber imu_subscriber_;
   FleetLink fleet_link_;
   bus::FleetMembers fleet_;
+  bus::MismatchWatch mismatch_watch_;
   std::optional<monitor::Monitor> monitor_;
 };
 

@@ -28,6 +28,10 @@ void StatusLog::log_changes(const stream::EngineSnapshot& now, std::size_t match
     spdlog::warn("overload: windows come less often (hop widened)");
   if (total.overloads > before.overloads)
     spdlog::warn("overload: samples pass through undenoised ({} times)", total.overloads - before.overloads);
+  constexpr auto kHistory = static_cast<std::size_t>(stream::RejectReason::kHistory);
+  if (total.rejected[kHistory] > before.rejected[kHistory])
+    spdlog::info("{} samples that were published before this start fill windows",
+                 total.rejected[kHistory] - before.rejected[kHistory]);
   if (total.restarts > before.restarts)
     spdlog::warn("sequence or clock of a sensor began anew ({} times)", total.restarts - before.restarts);
 }
@@ -35,7 +39,7 @@ void StatusLog::log_changes(const stream::EngineSnapshot& now, std::size_t match
 void StatusLog::log_growth(const stream::Counts& now) {
   for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
     const std::uint64_t more = now.rejected[i] - last_sum_.rejected[i];
-    if (more > 0)
+    if (more > 0 && static_cast<stream::RejectReason>(i) != stream::RejectReason::kHistory)
       spdlog::warn("{} more samples refused: {}", more,
                    stream::name_of(static_cast<stream::RejectReason>(i)));
   }

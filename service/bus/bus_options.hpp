@@ -8,16 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/qos_profile.hpp"
 #include "fleet/shard.hpp"
 #include "ros2/names.hpp"
 
 namespace gyrod::bus {
-
-/// Whether DDS repairs losses.
-enum class Reliability {
-  kReliable,    ///< a lost message is sent again
-  kBestEffort,  ///< a lost message stays lost: lowest latency on a bad network
-};
 
 /// What a reader's cache does when samples come faster than they are taken.
 enum class History {
@@ -45,8 +40,15 @@ struct Ros2Options {
   /// How the outputs of a topic are named. What is named so is never read.
   ros2::OutputRule outputs;
 
+  /// Input, as BusOptions::input_reliability.
+  InputReliability input_reliability = InputReliability::kAuto;
+
   /// Output: kBestEffort is what ROS 2 nodes do with sensor data.
   Reliability output_reliability = Reliability::kBestEffort;
+
+  /// What is asked of publishers, and offered to subscriptions.
+  QosProfile input;
+  QosProfile output;
 
   /// Messages of one topic that DDS holds for gyrod, and for a reliable reader that is late. 1..65536. The oldest gives way.
   std::size_t depth = 1024;
@@ -79,13 +81,19 @@ struct BusOptions {
   /// None: all, as shard 1/1 that does not wait for others when it starts.
   std::optional<fleet::Shard> shard;
 
-  /// Input: kReliable matches reliable writers only; kBestEffort matches every writer, and losses show as
-  /// gaps.
-  Reliability input_reliability = Reliability::kReliable;
+  /// Input: whom the raw topics are read from, and whether losses are repaired. kAuto opens a second reader of a topic once a
+  /// best-effort writer of it appears; each writer's samples are handed on once.
+  InputReliability input_reliability = InputReliability::kAuto;
+
+  /// Input: what is asked of the sensors' writers. `replay` and `simulate` offer the same.
+  QosProfile input;
 
   /// Input: kKeepAll slows reliable writers down to gyrod's pace (replay --speed max loses nothing);
   /// kKeepLast loses the oldest samples of a sensor when gyrod is late by more than input_depth messages.
   History input_history = History::kKeepAll;
+
+  /// Input: what sensors keep for readers that come later is read, too; only writers that keep something (transient local) match then.
+  bool input_past = false;
 
   /// Input, kKeepLast only: messages kept per sensor. 1..65536. More bridges longer stalls and costs memory.
   std::size_t input_depth = 1024;
@@ -104,9 +112,20 @@ struct BusOptions {
   /// Output: kReliable serves every reader; kBestEffort serves best-effort readers only.
   Reliability output_reliability = Reliability::kReliable;
 
+  /// Output: what is offered to readers of the denoised topics. The noise topic, whose reports come once a hop, takes the partitions
+  /// of it only.
+  QosProfile output;
+
   /// Output: messages kept per sensor and topic for readers that are late. 1..65536. A reliable reader that
   /// lags by more loses the oldest; gyrod itself never waits for a reader.
   std::size_t output_depth = 1024;
+
+  /// Output: 0 for shared ownership; else exclusive ownership of this strength, see bus/standby.hpp.
+  std::uint32_t ownership_strength = 0;
+
+  /// Output, exclusive ownership only: how long a sample may be missing from the other daemons' output before this one publishes it, s.
+  /// 0.1..60. Readers take a daemon for dead after half of it.
+  double takeover_s = 0.5;
 
   /// Output: whether the topics of estimates without look-ahead are offered. Only model methods make such estimates.
   bool realtime = false;

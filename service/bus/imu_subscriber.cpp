@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "bus/imu_topics_impl.hpp"
+#include "bus/log.hpp"
+#include "bus/lost_writers.hpp"
+#include "bus/sensor_states.hpp"
 
 namespace gyrod::bus {
 namespace {
 
-using Endpoint = dds_builtintopic_endpoint_t;
-
-const char* const kImuType = TopicType<Imu>::kDescriptor->m_typename;
+constexpr std::size_t kImuReaders = InputReader<Imu>::kSides;
+static_assert(kImuReaders <= SensorStates::kMaxSources);
 
 }  // namespace
 
@@ -23,13 +25,11 @@ class ImuSubscriber::Impl {
   Impl(ImuTopics::Impl& topics, ImuHandler& handler)
       : topics_(topics),
         handler_(handler),
-        waitset_(dds_create_waitset(topics.domain().participant()), "create a waitset"),
-        publications_(dds_create_reader(topics.domain().participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION,
-                                        nullptr, nullptr),
-                      "look for ROS 2 publishers"),
-        news_(dds_create_readcondition(publications_.get(), DDS_ANY_STATE), "look for ROS 2 publishers") {
+        book_(topics.domain(), {TopicType<Imu>::kDescriptor->m_typename}),
+        waitset_(dds_create_waitset(topics.domain().participant()), "create a waitset") {
     attach(waitset_.get(), "wait for the stop");
-    attach(news_.get(), "look for ROS 2 publishers");
+    attach(book_.condition(), "look for ROS 2 publishers");
+    attach(topics_.promises().condition(), "wait for broken promises");
     topics_.for_each([this](ImuTopic& topic) { read(topic); });
   }
 
@@ -48,38 +48,39 @@ class ImuSubscriber::Impl {
   }
 
  private:
-  /// A topic that is read, and whether a message of it came since its last end.
-  struct Source {
-    ImuTopic* topic;
-    bool alive = false;
-  };
-
   void attach(dds_entity_t condition, const std::string& attempt) const {
     check(dds_waitset_attach(waitset_.get(), condition, 0), attempt);
   }
 
   void read(ImuTopic& topic) {
-    attach(topic.reader().data_condition(), "wait for topic '" + topic.name() + "'");
-    sources_.push_back({&topic});
+    topic.reader().attend({waitset_.get(), &topics_.promises()}, topics_.options().input,
+                          sources_.size() * kImuReaders);
+    sources_.push_back(&topic);
   }
 
   void work() noexcept {
     while (!stopping_.load(std::memory_order_relaxed)) {
       (void)dds_waitset_wait(waitset_.get(), nullptr, 0, DDS_INFINITY);
       look_for_topics();
-      for (Source& source : sources_) take(source);
+      heed_broken_promises();
+      for (ImuTopic* topic : sources_) take(*topic);
     }
   }
 
   /// Opens the topics of those publishers that have appeared.
   void look_for_topics() noexcept {
-    while (true) {
-      const Loan<Endpoint> loan(publications_.get());
-      if (loan.size() == 0) return;
-      for (std::size_t i = 0; i < loan.size(); ++i) {
-        if (loan.info(i).valid_data && loan.message(i).type_name == std::string_view(kImuType))
-          meet(loan.message(i).topic_name);
-      }
+    for (const WriterBook::Writer& writer : book_.take_news()) {
+      meet(writer.topic);
+      if (ImuTopic* topic = topics_.find(writer.topic)) serve(*topic, writer);
+    }
+  }
+
+  /// Where DDS refuses a reader for best-effort publishers, the first one stays the only one.
+  static void serve(ImuTopic& topic, const WriterBook::Writer& writer) {
+    try {
+      topic.reader().serve(writer);
+    } catch (const BusError& error) {
+      log(LogLevel::kWarning, error.what());
     }
   }
 
@@ -103,36 +104,61 @@ class ImuSubscriber::Impl {
     handler_.on_refused_topic(reason);
   }
 
+  void heed_broken_promises() noexcept {
+    for (const PromiseWatch::Event& event : topics_.promises().take()) {
+      if (event.kind == PromiseWatch::Event::Kind::kDeadlineMissed) {
+        heed_deadline(sources_[event.source / kImuReaders]->name(), event.source % kImuReaders);
+      } else if (event.kind == PromiseWatch::Event::Kind::kLivelinessLost) {
+        const std::vector<std::string> sensors = lost_writers_.lose(event.handle);
+        topics_.broken_promise_counter().set_losses(lost_writers_.losses());
+        for (const std::string& sensor : sensors)
+          handler_.on_broken_promise(sensor, stream::ChannelState::kLivelinessLost);
+      } else {
+        lost_writers_.forget(event.handle);
+      }
+    }
+  }
+
+  void heed_deadline(const std::string& topic, std::size_t side) noexcept {
+    if (!states_.sends_by(topic, side)) return;
+    topics_.broken_promise_counter().count_deadline();
+    handler_.on_broken_promise(topic, stream::ChannelState::kDeadlineMissed);
+  }
+
   /// Takes once from a topic. The state that comes with a message is that of the moment: what else the cache holds comes before an
   /// end, and a new publisher undoes it.
-  std::size_t take(Source& source) noexcept {
-    bool ended = false;
-    const auto receive_one = [&](const Imu& message, const dds_sample_info_t& info) {
-      if (info.valid_data) receive(source, message);
-      ended = info.instance_state != DDS_ALIVE_INSTANCE_STATE;
+  std::size_t take(ImuTopic& topic) noexcept {
+    const auto receive_one = [&](std::size_t side, const Imu& message, const dds_sample_info_t& info) {
+      if (info.valid_data) receive(topic, message);
+      if (info.valid_data || states_.knows(topic.name()))
+        states_.show(topic.name(), side, info.instance_state == DDS_ALIVE_INSTANCE_STATE,
+                     info.publication_handle);
     };
-    const TopicReader<Imu>& reader = source.topic->reader();
-    const std::size_t taken = reader.take(receive_one);
-    while (ended && reader.take(receive_one) > 0) {
-    }
-    if (ended && source.alive) {
-      source.alive = false;
-      handler_.on_end(source.topic->name());
+    const std::size_t taken = topic.reader().take(book_, receive_one);
+    for (const SensorStates::Ending& ending : states_.take_ending()) {
+      while (topic.reader().take(book_, receive_one) > 0) {
+      }
+      if (states_.forget_if_ended(topic.name())) end(ending);
     }
     return taken;
   }
 
-  void receive(Source& source, const Imu& message) noexcept {
-    source.alive = true;
-    if (!source.topic->hold(message)) return;
-    if (!handler_.on_sample(source.topic->name(), sample_of(message))) source.topic->give_up_newest();
+  void end(const SensorStates::Ending& ending) noexcept {
+    handler_.on_end(ending.sensor);
+    if (lost_writers_.end(ending.sensor, ending.writer))
+      handler_.on_broken_promise(ending.sensor, stream::ChannelState::kLivelinessLost);
+  }
+
+  void receive(ImuTopic& topic, const Imu& message) noexcept {
+    if (!topic.hold(message)) return;
+    if (!handler_.on_sample(topic.name(), sample_of(message))) topic.give_up_newest();
   }
 
   /// A publisher may never pause: no more than a cache of each topic.
   void take_rest() noexcept {
-    for (Source& source : sources_) {
+    for (ImuTopic* topic : sources_) {
       for (std::size_t taken = 0; taken < topics_.options().depth;) {
-        const std::size_t more = take(source);
+        const std::size_t more = take(*topic);
         if (more == 0) break;
         taken += more;
       }
@@ -141,10 +167,11 @@ class ImuSubscriber::Impl {
 
   ImuTopics::Impl& topics_;
   ImuHandler& handler_;
+  WriterBook book_;
   Entity waitset_;
-  Entity publications_;
-  Entity news_;
-  std::vector<Source> sources_;
+  std::vector<ImuTopic*> sources_;
+  SensorStates states_;  ///< of the topics, by reader
+  LostWriters lost_writers_;
   std::set<std::string> refused_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;

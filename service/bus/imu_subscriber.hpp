@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bus/imu_topics.hpp"
+#include "stream/counters.hpp"
 #include "stream/sample.hpp"
 
 namespace gyrod::bus {
@@ -18,6 +19,8 @@ class ImuHandler {
   [[nodiscard]] virtual bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept = 0;
   /// The last publisher that sent a message has gone. Comes after the last of its samples, once until samples come again.
   virtual void on_end(std::string_view sensor) noexcept = 0;
+  /// A publisher did not keep what it promised (Ros2Options::input). @param why kDeadlineMissed, or, after on_end(), kLivelinessLost
+  virtual void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept = 0;
   /// A publisher of this topic appeared, and it was opened because it matches a pattern.
   virtual void on_topic(std::string_view topic, const ros2::Outputs& outputs) noexcept = 0;
   /// The same, and it was not opened. @param reason names the topic

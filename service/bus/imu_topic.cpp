@@ -8,7 +8,8 @@ namespace gyrod::bus {
 ImuTopic::ImuTopic(const Domain& domain, std::string name, const BusOptions& options)
     : name_(std::move(name)),
       outputs_(ros2::outputs_of(name_, options.ros2.outputs)),
-      reader_(domain.participant(), name_, imu_reader_qos(options.ros2)),
+      reader_(domain.participant(), name_, options.ros2.input_reliability,
+              [&options](Reliability reliability) { return imu_reader_qos(options.ros2, reliability); }),
       denoised_(domain.participant(), outputs_.denoised, imu_writer_qos(options.ros2)),
       held_(options.ros2.max_held_messages) {
   if (options.realtime)

@@ -10,7 +10,7 @@
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
 #include "bus/held_messages.hpp"
-#include "bus/topic_reader.hpp"
+#include "bus/input_reader.hpp"
 #include "bus/topic_writer.hpp"
 
 namespace gyrod::bus {
@@ -34,7 +34,8 @@ class ImuTopic {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const ros2::Outputs& outputs() const noexcept { return outputs_; }
-  [[nodiscard]] const TopicReader<Imu>& reader() const noexcept { return reader_; }
+  [[nodiscard]] InputReader<Imu>& reader() noexcept { return reader_; }
+  [[nodiscard]] std::size_t matched_writers() const noexcept { return reader_.matched().current_count; }
 
   /// Keeps a copy of a message until its denoised sample is published. @return false if the message is not taken, counted
   [[nodiscard]] bool hold(const Imu& message) noexcept;
@@ -54,7 +55,7 @@ class ImuTopic {
 
   std::string name_;
   ros2::Outputs outputs_;
-  TopicReader<Imu> reader_;
+  InputReader<Imu> reader_;
   TopicWriter<Imu> denoised_;
   std::optional<TopicWriter<Imu>> realtime_;
   mutable std::mutex mutex_;  ///< of all below; held while a message is written, which keeps them in order

@@ -9,7 +9,7 @@
 namespace gyrod::bus {
 
 ImuTopics::Impl::Impl(Domain domain, BusOptions options)
-    : domain_(std::move(domain)), options_(std::move(options)) {
+    : domain_(std::move(domain)), options_(std::move(options)), promises_(domain_) {
   for (const std::string& topic : options_.ros2.topics) {
     if (!ros2::is_pattern(topic) && is_ours(topic)) open(topic);
   }
@@ -83,10 +83,11 @@ bool ImuTopics::wait_for_acknowledgements(std::chrono::milliseconds timeout) noe
 ImuTopicsSnapshot ImuTopics::snapshot() const {
   ImuTopicsSnapshot snapshot;
   snapshot.refused_topics = impl_->refused();
+  snapshot.broken_promises = impl_->broken_promises();
   impl_->for_each([&snapshot](const ImuTopic& topic) {
     const ImuCounts counts = topic.counts();
     ++snapshot.topics;
-    snapshot.matched_writers += topic.reader().matched().current_count;
+    snapshot.matched_writers += topic.matched_writers();
     snapshot.malformed_messages += counts.malformed;
     snapshot.dropped_messages += counts.dropped;
     snapshot.write_errors += counts.write_errors;

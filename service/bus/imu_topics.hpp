@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "bus/broken_promises.hpp"
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
 #include "stream/sample.hpp"
@@ -23,6 +24,7 @@ struct ImuTopicsSnapshot {
   std::uint64_t malformed_messages = 0;  ///< too long a frame id
   std::uint64_t dropped_messages = 0;    ///< no place to wait for the denoised rates
   std::uint64_t write_errors = 0;        ///< messages that DDS did not take
+  BrokenPromises broken_promises;        ///< of publishers
 };
 
 /// Every open topic with its reader, its writers and the messages that wait for their denoised rates. A topic stays open as long as

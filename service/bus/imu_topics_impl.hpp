@@ -11,6 +11,7 @@
 
 #include "bus/imu_topic.hpp"
 #include "bus/imu_topics.hpp"
+#include "bus/promise_watch.hpp"
 
 namespace gyrod::bus {
 
@@ -40,12 +41,19 @@ class ImuTopics::Impl {
   }
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
+  /// Outlives the topics, whose readers it listens to.
+  [[nodiscard]] PromiseWatch& promises() noexcept { return promises_; }
+  [[nodiscard]] BrokenPromiseCounter& broken_promise_counter() noexcept { return broken_promises_; }
+  [[nodiscard]] BrokenPromises broken_promises() const noexcept { return broken_promises_.counts(); }
+
  private:
   [[nodiscard]] bool is_ours(std::string_view name) const noexcept;
   void check_new(const std::string& name) const;
 
   Domain domain_;
   BusOptions options_;
+  PromiseWatch promises_;
+  BrokenPromiseCounter broken_promises_;
   mutable std::shared_mutex mutex_;
   std::map<std::string, std::unique_ptr<ImuTopic>, std::less<>> topics_;
   std::atomic<std::uint64_t> refused_{0};

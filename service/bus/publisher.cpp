@@ -83,6 +83,16 @@ class Publisher::Impl {
            confirmed(health_);
   }
 
+  void assert_liveliness() const noexcept {
+    const auto assert_both = [](const Topics& topics) {
+      (void)dds_assert_liveliness(topics.singles.get());
+      (void)dds_assert_liveliness(topics.batches.get());
+    };
+    assert_both(denoised_);
+    if (realtime_) assert_both(*realtime_);
+    (void)dds_assert_liveliness(reports_.get());
+  }
+
   [[nodiscard]] std::uint64_t write_errors() const noexcept {
     return write_errors_.load(std::memory_order_relaxed);
   }
@@ -182,6 +192,8 @@ void Publisher::unregister_sensor(std::string_view sensor) noexcept { impl_->unr
 bool Publisher::wait_for_acknowledgements(std::chrono::milliseconds timeout) noexcept {
   return impl_->wait_for_acknowledgements(timeout);
 }
+
+void Publisher::assert_liveliness() const noexcept { impl_->assert_liveliness(); }
 
 std::uint64_t Publisher::write_errors() const noexcept { return impl_->write_errors(); }
 std::int32_t Publisher::denoised_writer() const noexcept { return impl_->denoised_writer(); }

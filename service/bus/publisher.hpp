@@ -57,6 +57,10 @@ class Publisher {
   /// @return false if they did not in time
   bool wait_for_acknowledgements(std::chrono::milliseconds timeout) noexcept;
 
+  /// Tells the readers that this publisher is alive, where BusOptions::ownership_strength is above 0: who neither says so nor publishes
+  /// is replaced after half of takeover_s.
+  void assert_liveliness() const noexcept;
+
   /// Messages that DDS did not take.
   [[nodiscard]] std::uint64_t write_errors() const noexcept;
 

@@ -14,12 +14,21 @@ using Singles = TopicWriter<gyrod_GyroSample>;
 using Batches = TopicWriter<gyrod_GyroBatch>;
 using Writer = std::variant<Singles, Batches>;
 
-Writer create(const Domain& domain, const BusOptions& options, std::size_t batch_samples) {
+/// Two names with wildcards never meet.
+void check_partitions(const std::vector<std::string>& names) {
+  const auto is_pattern = [](const std::string& name) { return name.find_first_of("*?") != name.npos; };
+  const auto found = std::ranges::find_if(names, is_pattern);
+  if (found == names.end()) return;
+  throw BusError("partition '" + *found + "': expected a name without '*' and '?' to write to");
+}
+
+Writer create(const Domain& domain, const BusOptions& options, std::size_t batch_samples, std::size_t past) {
   if (batch_samples < 1 || batch_samples > options.max_batch_samples) {
     throw BusError("batch of " + std::to_string(batch_samples) + " samples: expected 1.." +
                    std::to_string(options.max_batch_samples));
   }
-  const Qos qos = input_writer_qos();
+  check_partitions(options.input.partitions);
+  const Qos qos = input_writer_qos(options, past);
   if (batch_samples == 1) return Singles(domain.participant(), options.topics.raw, qos);
   return Batches(domain.participant(), options.topics.raw_batch, qos);
 }
@@ -34,11 +43,11 @@ void check_sensor(std::string_view sensor) {
 
 class RawWriter::Impl {
  public:
-  Impl(const Domain& domain, const BusOptions& options, std::size_t batch_samples)
+  Impl(const Domain& domain, const BusOptions& options, std::size_t batch_samples, std::size_t past)
       : domain_(domain),
         topic_(batch_samples == 1 ? options.topics.raw : options.topics.raw_batch),
         elements_(batch_samples),
-        writer_(create(domain, options, batch_samples)),
+        writer_(create(domain, options, batch_samples, past)),
         waitset_(dds_create_waitset(domain.participant()), "create a waitset") {
     check(dds_set_status_mask(handle(), DDS_PUBLICATION_MATCHED_STATUS),
           "watch the readers of topic '" + topic_ + "'");
@@ -119,8 +128,9 @@ class RawWriter::Impl {
   Entity waitset_;
 };
 
-RawWriter::RawWriter(const Domain& domain, const BusOptions& options, std::size_t batch_samples)
-    : impl_(std::make_unique<Impl>(domain, options, batch_samples)) {}
+RawWriter::RawWriter(const Domain& domain, const BusOptions& options, std::size_t batch_samples,
+                     std::size_t past)
+    : impl_(std::make_unique<Impl>(domain, options, batch_samples, past)) {}
 RawWriter::~RawWriter() = default;
 RawWriter::RawWriter(RawWriter&&) noexcept = default;
 RawWriter& RawWriter::operator=(RawWriter&&) noexcept = default;

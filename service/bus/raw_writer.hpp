@@ -20,8 +20,10 @@ class RawWriter {
   /// @param batch_samples 1 writes to the topic of single samples; 2..max_batch_samples to the topic of
   /// batches, with that many
   ///        samples a message at the most
+  /// @param past messages of every sensor that are kept for readers that come later; 0: none
   /// @throws BusError naming topic, QoS and DDS's answer
-  RawWriter(const Domain& domain, const BusOptions& options, std::size_t batch_samples = 1);
+  RawWriter(const Domain& domain, const BusOptions& options, std::size_t batch_samples = 1,
+            std::size_t past = 0);
   ~RawWriter();
   RawWriter(RawWriter&&) noexcept;
   RawWriter& operator=(RawWriter&&) noexcept;

@@ -1,9 +1,9 @@
 #include "bus/recorder.hpp"
 
+#include "bus/input_reader.hpp"
 #include "bus/sample_run.hpp"
 #include "bus/sensor_states.hpp"
 #include "bus/topic_discovery.hpp"
-#include "bus/topic_reader.hpp"
 
 namespace gyrod::bus {
 namespace {
@@ -16,12 +16,15 @@ constexpr const char* type_name_of() noexcept {
 /// What the configuration says about a topic under one of its names.
 std::optional<TopicFound> configured_topic(const BusOptions& options, const std::string& topic) {
   const TopicNames& names = options.topics;
-  if (topic == names.raw) return TopicFound{type_name_of<gyrod_GyroSample>(), options.input_reliability};
-  if (topic == names.raw_batch) return TopicFound{type_name_of<gyrod_GyroBatch>(), options.input_reliability};
-  if (topic == names.denoised || topic == names.realtime)
-    return TopicFound{type_name_of<gyrod_DenoisedSample>(), options.output_reliability};
+  const auto input = [&](const char* type) { return TopicFound{type, options.input.partitions}; };
+  const auto output = [&](const char* type) {
+    return TopicFound{type, options.output.partitions, options.ownership_strength > 0};
+  };
+  if (topic == names.raw) return input(type_name_of<gyrod_GyroSample>());
+  if (topic == names.raw_batch) return input(type_name_of<gyrod_GyroBatch>());
+  if (topic == names.denoised || topic == names.realtime) return output(type_name_of<gyrod_DenoisedSample>());
   if (topic == names.denoised_batch || topic == names.realtime_batch)
-    return TopicFound{type_name_of<gyrod_DenoisedBatch>(), options.output_reliability};
+    return output(type_name_of<gyrod_DenoisedBatch>());
   return std::nullopt;
 }
 
@@ -39,19 +42,24 @@ class Recorder::Source {
 template <class Message>
 class Recorder::TypedSource final : public Source {
  public:
-  TypedSource(const Domain& domain, const std::string& topic, const Qos& qos)
+  /// @param make_qos gives the reader's QoS for a Reliability
+  template <class MakeQos>
+  TypedSource(const Domain& domain, const std::string& topic, const MakeQos& make_qos)
       : domain_(domain),
-        reader_(domain.participant(), topic, qos),
-        waitset_(dds_create_waitset(domain.participant()), "create a waitset") {
-    const std::string attempt = "wait for topic '" + topic + "'";
-    check(dds_set_status_mask(reader_.get(), DDS_SUBSCRIPTION_MATCHED_STATUS), attempt);
-    check(dds_waitset_attach(waitset_.get(), reader_.get(), 0), attempt);
-    check(dds_waitset_attach(waitset_.get(), reader_.data_condition(), 0), attempt);
+        book_(domain, {type_name_of<Message>()}),
+        waitset_(dds_create_waitset(domain.participant()), "create a waitset"),
+        reader_(domain.participant(), topic, InputReliability::kAuto, make_qos) {
+    reader_.attend({.waitset = waitset_.get()}, {}, 0);
+    await_matches(0);
+    check(dds_waitset_attach(waitset_.get(), book_.condition(), 0), "wait for writers");
   }
 
   Poll poll(std::chrono::milliseconds timeout, RecordHandler& handler) override {
     const dds_time_t deadline = dds_time() + DDS_MSECS(timeout.count());
     while (true) {
+      for (const WriterBook::Writer& writer : book_.take_news()) {
+        if (reader_.serve(writer)) await_matches(1);
+      }
       // Asked before the cache: what the last writer wrote is in the cache by the time it counts as gone.
       const dds_subscription_matched_status_t writers = reader_.matched();
       if (take(handler)) return Poll::kSamples;
@@ -66,29 +74,36 @@ class Recorder::TypedSource final : public Source {
   }
 
  private:
+  void await_matches(std::size_t side) const {
+    const std::string attempt = "wait for writers of topic '" + reader_.name() + "'";
+    check(dds_set_status_mask(reader_.reader(side), DDS_SUBSCRIPTION_MATCHED_STATUS), attempt);
+    check(dds_waitset_attach(waitset_.get(), reader_.reader(side), 0), attempt);
+  }
+
   /// @return whether samples or ends were handed over
   bool take(RecordHandler& handler) {
     SampleRun<stream::DenoisedSample, RecordHandler> run(handler);
-    const auto receive = [&](const Message& message, const dds_sample_info_t& info) {
+    const auto receive = [&](std::size_t side, const Message& message, const dds_sample_info_t& info) {
       const std::string_view sensor(message.sensor);
       if (!fits_wire(sensor) || !(info.valid_data || states_.knows(sensor))) return;
       if (info.valid_data) run.add(sensor, samples_of(message));
-      states_.show(sensor, 0, info.instance_state == DDS_ALIVE_INSTANCE_STATE);
+      states_.show(sensor, side, info.instance_state == DDS_ALIVE_INSTANCE_STATE, info.publication_handle);
     };
-    const bool taken = reader_.take(receive) > 0;
+    const bool taken = reader_.take(book_, receive) > 0;
     run.flush();
-    for (const std::string& sensor : states_.take_ending()) {
-      reader_.take_sensor(sensor, receive);
+    for (const SensorStates::Ending& ending : states_.take_ending()) {
+      reader_.take_sensor(book_, ending.sensor, receive);
       run.flush();
-      if (states_.forget_if_ended(sensor)) handler.on_end(sensor);
+      if (states_.forget_if_ended(ending.sensor)) handler.on_end(ending.sensor);
     }
     return taken;
   }
 
   Domain domain_;
-  TopicReader<Message> reader_;
+  WriterBook book_;
   SensorStates states_;
   Entity waitset_;
+  InputReader<Message> reader_;
 };
 
 std::unique_ptr<Recorder::Source> Recorder::create(const Domain& domain, const BusOptions& options,
@@ -100,7 +115,9 @@ std::unique_ptr<Recorder::Source> Recorder::create(const Domain& domain, const B
     throw BusError("topic '" + topic + "': no writer within " + std::to_string(discovery_timeout.count()) +
                    " ms; expected one, or a topic of the configuration");
   }
-  const Qos qos = recorder_qos(found->reliability, options);
+  const auto qos = [&](Reliability reliability) {
+    return recorder_qos(reliability, found->partitions, found->exclusive, options);
+  };
   std::unique_ptr<Source> source;
   const auto try_type = [&]<class Message>(const Message*) {
     if (found->type_name == type_name_of<Message>())

@@ -36,7 +36,8 @@ class Recorder {
   };
 
   /// A topic under its configured name has the type that belongs to it, and is read from this moment on. For
-  /// any other topic, waits for a writer and takes the type and reliability it shows.
+  /// any other topic, waits for a writer and takes the type, partitions and ownership it shows. Losses of reliable writers are repaired, others
+  /// are read, too.
   /// @param discovery_timeout how long to wait for that writer
   /// @throws BusError naming the topic: no writer in time, or a type that is not one of the four (named)
   Recorder(const Domain& domain, const BusOptions& options, const std::string& topic,

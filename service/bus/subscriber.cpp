@@ -8,15 +8,19 @@
 #include <thread>
 #include <vector>
 
+#include "bus/input_reader.hpp"
+#include "bus/log.hpp"
+#include "bus/lost_writers.hpp"
 #include "bus/sample_run.hpp"
 #include "bus/sensor_states.hpp"
-#include "bus/topic_reader.hpp"
 
 namespace gyrod::bus {
 namespace {
 
 enum Topic : std::size_t { kSingles, kBatches, kTopics };
-static_assert(kTopics <= SensorStates::kMaxTopics);
+/// A topic has two readers at the most.
+constexpr std::size_t kReaders = InputReader<gyrod_GyroSample>::kSides;
+static_assert(kTopics * kReaders <= SensorStates::kMaxSources);
 
 /// Hands over at once, or keeps for later.
 class HandOver final : public SampleHandler {
@@ -30,6 +34,10 @@ class HandOver final : public SampleHandler {
   void on_end(std::string_view sensor) noexcept override {
     if (!keeping_) return handler_.on_end(sensor);
     kept_.push_back({std::string(sensor), {}});
+  }
+  /// While all that is left is handed over nothing needs to be told of why it ends.
+  void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override {
+    if (!keeping_) handler_.on_broken_promise(sensor, why);
   }
 
   void keep() noexcept { keeping_ = true; }
@@ -69,13 +77,18 @@ class Subscriber::Impl {
         max_batch_samples_(options.max_batch_samples),
         hand_over_(handler),
         run_(hand_over_),
-        singles_(std::in_place, domain.participant(), options.topics.raw, input_reader_qos(options)),
-        batches_(std::in_place, domain.participant(), options.topics.raw_batch, input_reader_qos(options)),
+        book_(domain, {TopicType<gyrod_GyroSample>::kDescriptor->m_typename,
+                       TopicType<gyrod_GyroBatch>::kDescriptor->m_typename}),
+        promises_(domain),
         waitset_(create_waitset(domain)) {
-    check(dds_waitset_attach(waitset_->get(), singles_->data_condition(), 0),
-          "wait for topic '" + options.topics.raw + "'");
-    check(dds_waitset_attach(waitset_->get(), batches_->data_condition(), 0),
-          "wait for topic '" + options.topics.raw_batch + "'");
+    const auto qos = [&options](Reliability reliability) { return input_reader_qos(options, reliability); };
+    singles_.emplace(domain.participant(), options.topics.raw, options.input_reliability, qos);
+    batches_.emplace(domain.participant(), options.topics.raw_batch, options.input_reliability, qos);
+    const Attendants attendants{waitset_->get(), &promises_};
+    singles_->attend(attendants, options.input, kSingles * kReaders);
+    batches_->attend(attendants, options.input, kBatches * kReaders);
+    check(dds_waitset_attach(waitset_->get(), book_.condition(), 0), "wait for writers");
+    check(dds_waitset_attach(waitset_->get(), promises_.condition(), 0), "wait for broken promises");
     check(dds_waitset_attach(waitset_->get(), waitset_->get(), 0), "wait for the stop");
   }
 
@@ -112,12 +125,54 @@ class Subscriber::Impl {
     return singles_ ? singles_->refusals() + batches_->refusals() : last_refusals_;
   }
 
+  [[nodiscard]] BrokenPromises broken_promises() const noexcept { return broken_promises_.counts(); }
+
  private:
   void work() noexcept {
     while (!stopping_.load(std::memory_order_relaxed)) {
       (void)dds_waitset_wait(waitset_->get(), nullptr, 0, DDS_INFINITY);
+      serve_new_writers();
+      heed_broken_promises();
       take();
     }
+  }
+
+  /// Opens a reader for best-effort writers where one is needed. Where DDS refuses it, the first reader stays the only one.
+  void serve_new_writers() noexcept {
+    for (const WriterBook::Writer& writer : book_.take_news()) {
+      try {
+        singles_->serve(writer);
+        batches_->serve(writer);
+      } catch (const BusError& error) {
+        log(LogLevel::kWarning, error.what());
+      }
+    }
+  }
+
+  void heed_broken_promises() noexcept {
+    for (const PromiseWatch::Event& event : promises_.take()) {
+      if (event.kind == PromiseWatch::Event::Kind::kDeadlineMissed) {
+        heed_deadline(event);
+      } else if (event.kind == PromiseWatch::Event::Kind::kLivelinessLost) {
+        const std::vector<std::string> sensors = lost_writers_.lose(event.handle);
+        broken_promises_.set_losses(lost_writers_.losses());
+        for (const std::string& sensor : sensors)
+          hand_over_.on_broken_promise(sensor, stream::ChannelState::kLivelinessLost);
+      } else {
+        lost_writers_.forget(event.handle);
+      }
+    }
+  }
+
+  /// A sensor that has changed to the other topic, or whose samples the other reader hands on, misses nothing.
+  void heed_deadline(const PromiseWatch::Event& event) noexcept {
+    const std::size_t side = event.source % kReaders;
+    const bool single = event.source / kReaders == kSingles;
+    const std::string sensor = single ? sensor_of<gyrod_GyroSample>(singles_->reader(side), event.handle)
+                                      : sensor_of<gyrod_GyroBatch>(batches_->reader(side), event.handle);
+    if (!states_.sends_by(sensor, event.source)) return;
+    broken_promises_.count_deadline();
+    hand_over_.on_broken_promise(sensor, stream::ChannelState::kDeadlineMissed);
   }
 
   /// Leaves both topics with empty caches and loses nothing of what was confirmed.
@@ -155,18 +210,23 @@ class Subscriber::Impl {
     }
   }
 
+  [[nodiscard]] auto receiver(Topic topic) {
+    return [this, topic](std::size_t side, const auto& message, const auto& info) {
+      receive(topic * kReaders + side, message, info);
+    };
+  }
+
   /// Takes once from both topics and settles what has ended. @return messages taken
   std::size_t take() noexcept {
-    const std::size_t taken = singles_->take([this](const auto& message, const auto& info) {
-      receive(kSingles, message, info);
-    }) + batches_->take([this](const auto& message, const auto& info) { receive(kBatches, message, info); });
+    std::size_t taken = singles_->take(book_, receiver(kSingles));
+    taken += batches_->take(book_, receiver(kBatches));
     run_.flush();
-    for (const std::string& sensor : states_.take_ending()) settle(sensor);
+    for (const SensorStates::Ending& ending : states_.take_ending()) settle(ending);
     return taken;
   }
 
   template <class Message>
-  void receive(Topic topic, const Message& message, const dds_sample_info_t& info) {
+  void receive(std::size_t source, const Message& message, const dds_sample_info_t& info) {
     const std::string_view sensor(message.sensor);
     const std::span wire = info.valid_data ? samples_of(message) : decltype(samples_of(message)){};
     if (sensor.empty() || wire.size() > max_batch_samples_) {
@@ -176,19 +236,20 @@ class Subscriber::Impl {
     }
     // The end of a sensor that never sent a sample is no news.
     if (!sensor.empty() && (info.valid_data || states_.knows(sensor))) {
-      states_.show(sensor, topic, info.instance_state == DDS_ALIVE_INSTANCE_STATE);
+      states_.show(sensor, source, info.instance_state == DDS_ALIVE_INSTANCE_STATE, info.publication_handle);
     }
   }
 
   /// A topic showed the sensor as ended: hands over the rest of it, then tells its end unless it came back to
   /// life.
-  void settle(const std::string& sensor) {
-    singles_->take_sensor(
-        sensor, [this](const auto& message, const auto& info) { receive(kSingles, message, info); });
-    batches_->take_sensor(
-        sensor, [this](const auto& message, const auto& info) { receive(kBatches, message, info); });
+  void settle(const SensorStates::Ending& ending) {
+    singles_->take_sensor(book_, ending.sensor, receiver(kSingles));
+    batches_->take_sensor(book_, ending.sensor, receiver(kBatches));
     run_.flush();
-    if (states_.forget_if_ended(sensor)) hand_over_.on_end(sensor);
+    if (!states_.forget_if_ended(ending.sensor)) return;
+    hand_over_.on_end(ending.sensor);
+    if (lost_writers_.end(ending.sensor, ending.writer))
+      hand_over_.on_broken_promise(ending.sensor, stream::ChannelState::kLivelinessLost);
   }
 
   Domain domain_;
@@ -197,12 +258,16 @@ class Subscriber::Impl {
   SampleRun<stream::Sample, SampleHandler> run_;
   SensorStates states_;
   mutable std::mutex topics_mutex_;  ///< for those who only count; the readers go in leave()
-  std::optional<TopicReader<gyrod_GyroSample>> singles_;
-  std::optional<TopicReader<gyrod_GyroBatch>> batches_;
+  WriterBook book_;
+  PromiseWatch promises_;
+  LostWriters lost_writers_;
+  std::optional<InputReader<gyrod_GyroSample>> singles_;
+  std::optional<InputReader<gyrod_GyroBatch>> batches_;
   std::optional<Entity> waitset_;
   std::uint64_t last_refusals_ = 0;
   std::atomic<bool> stopping_{false};
   std::atomic<std::uint64_t> malformed_{0};
+  BrokenPromiseCounter broken_promises_;
   std::thread thread_;
 };
 
@@ -215,5 +280,6 @@ void Subscriber::stop() noexcept { impl_->stop(); }
 std::size_t Subscriber::matched_writers() const noexcept { return impl_->matched_writers(); }
 std::uint64_t Subscriber::malformed_messages() const noexcept { return impl_->malformed_messages(); }
 std::uint64_t Subscriber::refusals() const noexcept { return impl_->refusals(); }
+BrokenPromises Subscriber::broken_promises() const noexcept { return impl_->broken_promises(); }
 
 }  // namespace gyrod::bus

@@ -7,8 +7,10 @@
 #include <span>
 #include <string_view>
 
+#include "bus/broken_promises.hpp"
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
+#include "stream/counters.hpp"
 #include "stream/sample.hpp"
 
 namespace gyrod::bus {
@@ -24,6 +26,8 @@ class SampleHandler {
   /// The sensor has ended: its last writer disposed or unregistered it, or went away. Comes after the last of
   /// its samples and at most once until samples come again. @param sensor valid during the call
   virtual void on_end(std::string_view sensor) noexcept = 0;
+  /// Its writer did not keep what it promised (BusOptions::input). @param why kDeadlineMissed, or, after on_end(), kLivelinessLost
+  virtual void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept = 0;
 };
 
 /// Reads both raw topics on one thread of its own, and hands over in spans: consecutive samples of one sensor
@@ -61,6 +65,8 @@ class Subscriber {
   /// Times a message was refused because a cache was full or knew max_instances sensors; reliable writers try
   /// again. Grows while writers are held back.
   [[nodiscard]] std::uint64_t refusals() const noexcept;
+
+  [[nodiscard]] BrokenPromises broken_promises() const noexcept;
 
  private:
   class Impl;

@@ -2,16 +2,17 @@
 
 #include "bus/entity.hpp"
 #include "bus/loan.hpp"
+#include "bus/qos_match.hpp"
 
 namespace gyrod::bus {
 namespace {
 
 using Endpoint = dds_builtintopic_endpoint_t;
 
-Reliability reliability_of(const Endpoint& writer) {
-  dds_reliability_kind_t kind = DDS_RELIABILITY_BEST_EFFORT;
-  (void)dds_qget_reliability(writer.qos, &kind, nullptr);
-  return kind == DDS_RELIABILITY_RELIABLE ? Reliability::kReliable : Reliability::kBestEffort;
+bool is_exclusive(const Endpoint& writer) {
+  dds_ownership_kind_t kind = DDS_OWNERSHIP_SHARED;
+  (void)dds_qget_ownership(writer.qos, &kind);
+  return kind == DDS_OWNERSHIP_EXCLUSIVE;
 }
 
 /// Looks through the writers that were discovered since the last call.
@@ -22,7 +23,8 @@ std::optional<TopicFound> look(dds_entity_t publications, const std::string& top
     if (loan.size() == 0) return std::nullopt;
     for (std::size_t i = 0; i < loan.size() && !found; ++i) {
       if (!loan.info(i).valid_data || loan.message(i).topic_name != topic) continue;
-      found = TopicFound{loan.message(i).type_name, reliability_of(loan.message(i))};
+      found = TopicFound{loan.message(i).type_name, partitions_of(loan.message(i).qos),
+                         is_exclusive(loan.message(i))};
     }
   }
   return found;

@@ -4,19 +4,19 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
 
 namespace gyrod::bus {
 
 struct TopicFound {
   std::string type_name;  ///< e.g. "gyrod::DenoisedSample"
-  Reliability reliability = Reliability::kReliable;
+  std::vector<std::string> partitions = {};
+  bool exclusive = false;  ///< ownership
 };
 
-/// Waits until a writer of the topic is seen anywhere in the domain, and tells the first one's type and
-/// reliability.
+/// Waits until a writer of the topic is seen anywhere in the domain, and tells the first one's type, partitions and ownership.
 /// @return nothing if none was seen by then
 /// @throws BusError if DDS refuses
 [[nodiscard]] std::optional<TopicFound> find_topic(const Domain& domain, const std::string& topic,

@@ -21,6 +21,13 @@ namespace gyrod::bus {
 /// A condition that holds while the reader's cache holds anything: for a waitset.
 [[nodiscard]] Entity create_data_condition(dds_entity_t reader, const std::string& name);
 
+/// The sensor of an instance. @return an empty text where the reader has forgotten it
+template <class Message>
+[[nodiscard]] std::string sensor_of(dds_entity_t reader, dds_instance_handle_t instance) {
+  Message key{};
+  return dds_instance_get_key(reader, instance, &key) == DDS_RETCODE_OK ? key.sensor : "";
+}
+
 /// Takes messages of one type. One thread takes; the counts are for any thread.
 ///
 /// The state that DDS gives with a message is the state of the moment it is taken, not of the message: a

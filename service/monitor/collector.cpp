@@ -20,6 +20,7 @@ std::vector<prometheus::MetricFamily> Collector::Collect() const {
   add_process_metrics(options_.version, options_.start_time_s, options_.uptime_s(), families);
   add_bus_metrics(view_.bus(), view_.readiness(), families);
   add_fleet_metrics(view_.fleet(), families);
+  if (view_.state_file_errors) add_state_file_metrics(view_.state_file_errors(), families);
   add_engine_metrics(engine, families);
   add_health_totals(engine, families);
   const std::vector<stream::ChannelSnapshot> shown = view_.channels(options_.max_channel_series);

@@ -62,6 +62,17 @@ void add(Families& families, prometheus::MetricType type, const char* name, cons
   families.push_back(single(name, help, type, static_cast<double>(value)));
 }
 
+void add_standby_metrics(const StandbySnapshot& standby, Families& families) {
+  add(families, kGauge, "gyrod_standby_others", "Other daemons that have the same output.", standby.others);
+  add(families, kGauge, "gyrod_standby_sensors", "Sensors that this daemon publishes.", standby.sensors);
+  add(families, kGauge, "gyrod_standby_samples_held",
+      "Released samples that wait to be heard from another daemon.", standby.held);
+  add(families, kCounter, "gyrod_standby_samples_let_go_total",
+      "Released samples that another daemon has published.", standby.let_go);
+  add(families, kCounter, "gyrod_standby_takeovers_total",
+      "Times this daemon went on with a sensor where another one had published it.", standby.takeovers);
+}
+
 }  // namespace
 
 void add_engine_metrics(const stream::EngineSnapshot& engine, Families& families) {
@@ -85,6 +96,18 @@ void add_engine_metrics(const stream::EngineSnapshot& engine, Families& families
                                engine.added_latency));
 }
 
+/// A series of each kind, also where there is none of it: an alert may then ask for a rise.
+prometheus::MetricFamily incompatible_peers(const BusSnapshot& bus) {
+  prometheus::MetricFamily made =
+      family("gyrod_bus_incompatible_peers",
+             "Writers and readers of our topics that do not match ours, by what differs.", kGauge);
+  for (const IncompatiblePeers& kind : bus.incompatible_peers) {
+    made.metric.push_back(metric(kGauge, static_cast<double>(kind.peers),
+                                 {{"direction", kind.direction}, {"policy", kind.policy}}));
+  }
+  return made;
+}
+
 void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Families& families) {
   add(families, kGauge, "gyrod_ready", "1 while work can be done, as /readyz says.", readiness.ready ? 1 : 0);
   add(families, kGauge, "gyrod_bus_matched_writers", "Writers that send to gyrod.", bus.matched_writers);
@@ -94,6 +117,11 @@ void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Familie
       "Times a full input cache refused a message; reliable writers try again.", bus.refusals);
   add(families, kCounter, "gyrod_bus_write_errors_total", "DDS messages that could not be written.",
       bus.write_errors);
+  add(families, kCounter, "gyrod_bus_deadlines_missed_total",
+      "Times a sensor did not send within the deadline that its writer promised.", bus.deadlines_missed);
+  add(families, kCounter, "gyrod_bus_liveliness_lost_total",
+      "Times a writer gave no sign of life within the lease that it promised.", bus.liveliness_lost);
+  families.push_back(incompatible_peers(bus));
   add(families, kGauge, "gyrod_ros2_topics", "ROS 2 topics that are read.", bus.ros2_topics);
   add(families, kCounter, "gyrod_ros2_refused_topics_total",
       "ROS 2 topics that match a pattern and were not opened.", bus.ros2_refused_topics);
@@ -108,6 +136,7 @@ void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Familie
     add(families, kCounter, "gyrod_bus_refused_peers_total", "Programs that DDS Security kept out.",
         *bus.refused_peers);
   }
+  if (bus.standby) add_standby_metrics(*bus.standby, families);
 }
 
 void add_fleet_metrics(const FleetSnapshot& fleet, Families& families) {
@@ -125,6 +154,11 @@ void add_fleet_metrics(const FleetSnapshot& fleet, Families& families) {
       "Times a daemon turned up that may have served the same sensors at the same time.", fleet.disputes);
   add(families, kCounter, "gyrod_shard_foreign_samples_total",
       "Samples passed over, since other daemons serve their sensors.", fleet.foreign_samples);
+}
+
+void add_state_file_metrics(std::uint64_t errors, Families& families) {
+  add(families, kCounter, "gyrod_state_file_errors_total", "Times the noise state file could not be written.",
+      errors);
 }
 
 void add_process_metrics(const std::string& version, double start_time_s, double uptime_s,

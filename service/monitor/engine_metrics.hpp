@@ -1,6 +1,7 @@
 /// Metrics of the engine as a whole, of the bus, and of the process.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness,
                      std::vector<prometheus::MetricFamily>& families);
 
 void add_fleet_metrics(const FleetSnapshot& fleet, std::vector<prometheus::MetricFamily>& families);
+/// @param errors times the noise state file could not be written
+void add_state_file_metrics(std::uint64_t errors, std::vector<prometheus::MetricFamily>& families);
 
 /// @param start_time_s when the process began, s since the Unix epoch
 void add_process_metrics(const std::string& version, double start_time_s, double uptime_s,

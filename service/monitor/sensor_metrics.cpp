@@ -48,7 +48,7 @@ Value at_rest(const ChannelSnapshot& sensor) {
   return known ? Value(*known ? 1.0 : 0.0) : std::nullopt;
 }
 
-constexpr std::array<Metric<ChannelSnapshot>, 18> kOfSensor = {{
+constexpr std::array<Metric<ChannelSnapshot>, 19> kOfSensor = {{
     {"gyrod_sensor_samples_received_total", "Samples of the sensor that arrived.", kCounter,
      [](const ChannelSnapshot& s) { return number(s.counts.received); }},
     {"gyrod_sensor_samples_published_total", "Samples of the sensor released.", kCounter,
@@ -80,7 +80,10 @@ constexpr std::array<Metric<ChannelSnapshot>, 18> kOfSensor = {{
      "Times the model of an axis of the sensor ceased to explain the input.", kCounter,
      [](const ChannelSnapshot& s) { return number(s.counts.misfits); }},
     {"gyrod_sensor_silent", "1 where the sensor has sent nothing for limits.silent_after_s.", kGauge,
-     [](const ChannelSnapshot& s) { return Value(s.silent ? 1.0 : 0.0); }},
+     [](const ChannelSnapshot& s) { return Value(stream::is_silent(s.state) ? 1.0 : 0.0); }},
+    {"gyrod_sensor_state",
+     "0 sends, 1 silent, 2 silent: deadline missed, 3 silent: liveliness lost, 4 ended.", kGauge,
+     [](const ChannelSnapshot& s) { return number(static_cast<std::uint64_t>(s.state)); }},
     {"gyrod_sensor_silences_total", "Times the sensor sent nothing for so long that its window was closed.",
      kCounter, [](const ChannelSnapshot& s) { return number(s.counts.silences); }},
     {"gyrod_sensor_at_rest", "1 where the sensor was at rest at its last window's end.", kGauge, at_rest},

@@ -14,6 +14,22 @@
 
 namespace gyrod::monitor {
 
+/// Peers on the bus that do not match, of one kind.
+struct IncompatiblePeers {
+  std::string direction;  ///< "input": their writers and our readers; "output": our writers and their readers
+  std::string policy;     ///< what differs, e.g. "reliability"
+  std::size_t peers = 0;  ///< now
+};
+
+/// The part of a daemon among several with the same output, at one moment.
+struct StandbySnapshot {
+  std::size_t others = 0;       ///< other daemons with the same output
+  std::size_t sensors = 0;      ///< sensors that this one publishes
+  std::size_t held = 0;         ///< samples that wait to be heard from another daemon
+  std::uint64_t let_go = 0;     ///< samples that another one has published
+  std::uint64_t takeovers = 0;  ///< times a sensor was taken over from another daemon
+};
+
 /// The bus as monitoring sees it at one moment, in plain numbers.
 struct BusSnapshot {
   std::size_t matched_writers = 0;  ///< writers that send to our raw topics
@@ -27,6 +43,12 @@ struct BusSnapshot {
   /// With DDS Security: when the first certificate in use ends, s since 1970.
   std::optional<double> certificate_expiry_s = {};
   std::optional<std::uint64_t> refused_peers = {};  ///< with DDS Security: programs that were not let in
+  /// Times a sensor did not send within the deadline that its writer promised.
+  std::uint64_t deadlines_missed = 0;
+  /// Times a writer gave no sign of life within the lease that it promised.
+  std::uint64_t liveliness_lost = 0;
+  std::vector<IncompatiblePeers> incompatible_peers = {};  ///< one of each kind there can be
+  std::optional<StandbySnapshot> standby = {};             ///< none where this daemon is to be the only one
 };
 
 /// The daemons that share the sensors, as monitoring sees them at one moment.
@@ -47,13 +69,15 @@ struct Readiness {
   std::string reason;  ///< why not, in a few words, e.g. "stopping"; unused when ready
 };
 
-/// All five must be set.
+/// All but the last must be set.
 struct View {
   std::function<stream::EngineSnapshot()> engine;
   std::function<std::vector<stream::ChannelSnapshot>(std::size_t limit)> channels;
   std::function<BusSnapshot()> bus;
   std::function<FleetSnapshot()> fleet;
   std::function<Readiness()> readiness;
+  /// Times the noise state file could not be written; none where there is no such file.
+  std::function<std::uint64_t()> state_file_errors = {};
 };
 
 }  // namespace gyrod::monitor

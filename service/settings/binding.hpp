@@ -7,6 +7,25 @@
 namespace gyrod::settings {
 
 template <class Visit>
+void visit_qos(BusSettings& bus, Visit& visit) {
+  visit("bus.input.deadline_s", bus.input.qos.deadline_s);
+  visit("bus.input.liveliness", bus.input.qos.liveliness);
+  visit("bus.input.liveliness_lease_s", bus.input.qos.liveliness_lease_s);
+  visit("bus.input.partitions", bus.input.qos.partitions);
+  visit("bus.output.deadline_s", bus.output.qos.deadline_s);
+  visit("bus.output.liveliness", bus.output.qos.liveliness);
+  visit("bus.output.liveliness_lease_s", bus.output.qos.liveliness_lease_s);
+  visit("bus.output.partitions", bus.output.qos.partitions);
+  visit("bus.ros2.input_deadline_s", bus.ros2.input_qos.deadline_s);
+  visit("bus.ros2.input_liveliness", bus.ros2.input_qos.liveliness);
+  visit("bus.ros2.input_liveliness_lease_s", bus.ros2.input_qos.liveliness_lease_s);
+  visit("bus.ros2.output_deadline_s", bus.ros2.output_qos.deadline_s);
+  visit("bus.ros2.output_liveliness", bus.ros2.output_qos.liveliness);
+  visit("bus.ros2.output_liveliness_lease_s", bus.ros2.output_qos.liveliness_lease_s);
+  visit("bus.ros2.partitions", bus.ros2.input_qos.partitions);
+}
+
+template <class Visit>
 void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.domain", bus.domain);
   visit("bus.network", bus.network);
@@ -24,11 +43,15 @@ void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.input.history_depth", bus.input.history_depth);
   visit("bus.input.max_messages", bus.input.max_messages);
   visit("bus.input.max_sensors", bus.input.max_sensors);
+  visit("bus.input.durability", bus.input.durability);
   visit("bus.output.reliability", bus.output.reliability);
   visit("bus.output.history_depth", bus.output.history_depth);
+  visit("bus.output.ownership_strength", bus.output.ownership_strength);
+  visit("bus.output.takeover_s", bus.output.takeover_s);
   visit("bus.ros2.topics", bus.ros2.topics);
   visit("bus.ros2.denoised_suffix", bus.ros2.denoised_suffix);
   visit("bus.ros2.realtime_suffix", bus.ros2.realtime_suffix);
+  visit("bus.ros2.input_reliability", bus.ros2.input_reliability);
   visit("bus.ros2.output_reliability", bus.ros2.output_reliability);
   visit("bus.ros2.history_depth", bus.ros2.history_depth);
   visit("bus.ros2.max_topics", bus.ros2.max_topics);
@@ -82,9 +105,11 @@ void visit_health(stream::HealthOptions& health, Visit& visit) {
 template <class Visit>
 void for_each_key(Settings& settings, Visit&& visit) {
   visit_bus(settings.bus, visit);
+  visit_qos(settings.bus, visit);
   visit_algorithm(settings, visit);
   visit_health(settings.engine.health, visit);
   visit("workers", settings.workers);
+  visit("restart.published_file", settings.restart.published_file);
   visit("monitor.enabled", settings.monitor.enabled);
   visit("monitor.address", settings.monitor.address);
   visit("monitor.port", settings.monitor.port);

@@ -141,6 +141,16 @@ class CrossCheck {
     for (std::size_t i = 0; i < ros2.topics.size(); ++i) check_ros2_topic(i);
   }
 
+  void check_qos() {
+    const BusSettings& bus = settings_.bus;
+    check_liveliness("bus.input.liveliness", bus.input.qos);
+    check_liveliness("bus.output.liveliness", bus.output.qos);
+    check_liveliness("bus.ros2.input_liveliness", bus.ros2.input_qos);
+    check_liveliness("bus.ros2.output_liveliness", bus.ros2.output_qos);
+    check_written_partitions("bus.output.partitions", bus.output.qos);
+    check_written_partitions("bus.ros2.partitions", bus.ros2.input_qos);
+  }
+
   /// Reads the calibrations: a start must not find out later.
   void check_calibrations(const fs::path& directory) {
     const NoiseSettings& noise = settings_.noise;
@@ -165,6 +175,16 @@ class CrossCheck {
     require(!fs::is_directory(file, error), "noise.state_file", noise.state_file, "a file, not a folder", {});
     require(file != resolved(noise.calibrations, directory), "noise.state_file", noise.state_file,
             "another file than noise.calibrations", {"noise.calibrations"});
+  }
+
+  void check_published_file(const fs::path& directory) {
+    const std::string& file = settings_.restart.published_file;
+    if (file.empty()) return;
+    std::error_code error;
+    const fs::path path = resolved(file, directory);
+    require(!fs::is_directory(path, error), "restart.published_file", file, "a file, not a folder", {});
+    require(path != resolved(settings_.noise.state_file, directory), "restart.published_file", file,
+            "another file than noise.state_file", {"noise.state_file"});
   }
 
   void check_network(const fs::path& directory) {
@@ -206,6 +226,20 @@ class CrossCheck {
     }
   }
 
+  void check_liveliness(const std::string& key, const QosSettings& qos) {
+    const std::string lease = key + "_lease_s";
+    require(qos.liveliness == Liveliness::kAutomatic || qos.liveliness_lease_s > 0.0, lease,
+            qos.liveliness_lease_s,
+            "above 0, for " + key + " is \"" + std::string(name_of(qos.liveliness)) + "\"", {key});
+  }
+
+  void check_written_partitions(const std::string& key, const QosSettings& qos) {
+    for (std::size_t i = 0; i < qos.partitions.size(); ++i) {
+      require(qos.partitions[i].find_first_of("*?") == std::string::npos, key + "[" + std::to_string(i) + "]",
+              qos.partitions[i], "a name without '*' and '?', for gyrod writes there", {key});
+    }
+  }
+
   /// @param others the keys besides `key` that the rule depends on
   void require(bool holds, const std::string& key, const json& value, const std::string& expected,
                std::initializer_list<std::string_view> others) {
@@ -238,36 +272,11 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_topics();
   check.check_shard();
   check.check_ros2();
+  check.check_qos();
   check.check_network(directory);
   check.check_calibrations(directory);
   check.check_state_file(directory);
-}
-
-bool concerned(const std::vector<SettingsIssue>& issues, std::string_view key) {
-  return std::any_of(issues.begin(), issues.end(), [key](const SettingsIssue& issue) {
-    return issue.key.empty() || key == issue.key || key.starts_with(issue.key + ".");
-  });
-}
-
-const json* given_value(const json& document, std::string_view key) {
-  const json* value = &document;
-  while (!key.empty()) {
-    const std::string_view name = key.substr(0, key.find('.'));
-    key.remove_prefix(std::min(key.size(), name.size() + 1));
-    const auto member = value->find(std::string(name));
-    if (member == value->end()) return nullptr;
-    value = &*member;
-  }
-  return value;
-}
-
-fs::path resolved(const std::string& path, const fs::path& directory) {
-  return path.empty() ? fs::path() : fs::absolute(directory / path).lexically_normal();
-}
-
-fs::path network_file(const BusSettings& bus, const fs::path& directory) {
-  if (bus.network == "loopback" || bus.network == "default") return {};
-  return resolved(bus.network, directory);
+  check.check_published_file(directory);
 }
 
 }  // namespace gyrod::settings

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "settings/issue.hpp"
+#include "settings/lookup.hpp"
 #include "settings/settings.hpp"
 
 namespace gyrod::settings {
@@ -17,18 +18,5 @@ namespace gyrod::settings {
 /// @param directory what the paths in bus.network and noise are relative to
 void cross_check(const Settings& settings, const nlohmann::json& document,
                  const std::filesystem::path& directory, std::vector<SettingsIssue>& issues);
-
-/// Whether an issue concerns this key or a group that it is in.
-[[nodiscard]] bool concerned(const std::vector<SettingsIssue>& issues, std::string_view key);
-
-/// The value of a key, or nullptr if the document does not give it.
-[[nodiscard]] const nlohmann::json* given_value(const nlohmann::json& document, std::string_view key);
-
-/// A path of the configuration made absolute; empty stays empty.
-[[nodiscard]] std::filesystem::path resolved(const std::string& path, const std::filesystem::path& directory);
-
-/// The Cyclone DDS XML file that bus.network names, empty for "loopback" and "default".
-[[nodiscard]] std::filesystem::path network_file(const BusSettings& bus,
-                                                 const std::filesystem::path& directory);
 
 }  // namespace gyrod::settings

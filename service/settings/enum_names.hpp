@@ -9,6 +9,11 @@
 namespace gyrod::settings {
 
 constexpr std::array<std::string_view, 2> names_of(Reliability) { return {"reliable", "best_effort"}; }
+constexpr std::array<std::string_view, 3> names_of(InputReliability) {
+  return {"auto", "reliable", "best_effort"};
+}
+constexpr std::array<std::string_view, 2> names_of(Liveliness) { return {"automatic", "manual_by_topic"}; }
+constexpr std::array<std::string_view, 2> names_of(Durability) { return {"volatile", "transient_local"}; }
 constexpr std::array<std::string_view, 2> names_of(Method) { return {"paper", "joint"}; }
 constexpr std::array<std::string_view, core::kSchemes> names_of(core::Scheme) { return core::kSchemeNames; }
 constexpr std::array<std::string_view, 3> names_of(Screening) {

@@ -87,6 +87,8 @@ Outcome read_settings(std::string_view text, const fs::path& directory) {
   NoiseSettings& noise = outcome.settings.noise;
   noise.calibrations = resolved(noise.calibrations, directory).string();
   noise.state_file = resolved(noise.state_file, directory).string();
+  std::string& published = outcome.settings.restart.published_file;
+  published = resolved(published, directory).string();
   return outcome;
 }
 

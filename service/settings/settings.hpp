@@ -15,6 +15,10 @@
 namespace gyrod::settings {
 
 enum class Reliability : std::uint8_t { kReliable, kBestEffort };
+/// Of a reader: kAuto takes from reliable writers reliably, and from the others what they send.
+enum class InputReliability : std::uint8_t { kAuto, kReliable, kBestEffort };
+enum class Liveliness : std::uint8_t { kAutomatic, kManualByTopic };
+enum class Durability : std::uint8_t { kVolatile, kTransientLocal };
 enum class Method : std::uint8_t {
   kPaper,
   kJoint,  ///< the two-speed estimator, a model method
@@ -35,19 +39,33 @@ struct TopicSettings {
   std::string realtime_batch = "gyro/realtime_batch";
 };
 
+/// What is asked of writers, or offered to readers; as bus::QosProfile.
+struct QosSettings {
+  double deadline_s = 0.0;
+  Liveliness liveliness = Liveliness::kAutomatic;
+  double liveliness_lease_s = 0.0;
+  std::vector<std::string> partitions;
+};
+
 struct InputSettings {
-  Reliability reliability = Reliability::kReliable;
+  InputReliability reliability = InputReliability::kAuto;
   /// Messages of one sensor that DDS holds for us; 0 keeps all, up to max_messages of a topic.
   std::size_t history_depth = 0;
   std::size_t max_messages = 4096;
   /// Sensor ids that DDS keeps track of in a topic; at least engine.max_channels.
   std::size_t max_sensors = 65536;
+  QosSettings qos;
+  Durability durability = Durability::kVolatile;
 };
 
 struct OutputSettings {
   Reliability reliability = Reliability::kReliable;
   /// Messages of one sensor and topic that DDS holds for readers that are behind.
   std::size_t history_depth = 1024;
+  QosSettings qos;
+  /// 0: shared ownership, no standby.
+  std::uint32_t ownership_strength = 0;
+  double takeover_s = 0.5;
 };
 
 struct Ros2Settings {
@@ -55,9 +73,14 @@ struct Ros2Settings {
   std::vector<std::string> topics;
   std::string denoised_suffix = "_denoised";
   std::string realtime_suffix = "_realtime";
+  InputReliability input_reliability = InputReliability::kAuto;
   Reliability output_reliability = Reliability::kBestEffort;
   std::size_t history_depth = 1024;
   std::size_t max_topics = 64;
+  /// Of the inputs; the partitions are those of the outputs, too.
+  QosSettings input_qos;
+  /// Of the outputs, but for the partitions.
+  QosSettings output_qos;
 };
 
 struct SecuritySettings {
@@ -101,6 +124,11 @@ struct NoiseSettings {
   std::string state_file;
 };
 
+struct RestartSettings {
+  /// Where it is kept what has been published (made absolute by loading); empty: nowhere.
+  std::string published_file;
+};
+
 struct MonitorSettings {
   bool enabled = true;
   std::string address = "127.0.0.1";
@@ -116,6 +144,7 @@ struct Settings {
   stream::EngineOptions engine;
   /// Worker threads; 0 asks for one per core. Whoever makes the Engine sets engine.workers from it.
   std::size_t workers = 0;
+  RestartSettings restart;
   MonitorSettings monitor;
   double stop_deadline_s = 5.0;
   LogLevel log_level = LogLevel::kInfo;

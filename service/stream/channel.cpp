@@ -14,6 +14,10 @@ HopSchedule::Options schedule_options(const EngineOptions& options) {
           .lag = static_cast<Position>(options.lag_samples)};
 }
 
+/// What a sensor keeps comes at once when it is found. A sensor that began anew with number and clock while nobody looked seems to send
+/// history, too; it is not taken for that any longer.
+constexpr double kLongestHistory_s = 10.0;
+
 }  // namespace
 
 std::size_t most_held_samples(const EngineOptions& options) noexcept {
@@ -32,14 +36,15 @@ Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMe
   if (models != nullptr) fast_loop.emplace(*models, options.lag_samples);
   if (options.noise) noise = options.noise(sensor_);
   if (options.learner) learner = options.learner(sensor_);
+  if (options.published_before) published_before_ = options.published_before(sensor_);
   hop_samples_ = static_cast<std::uint32_t>(options.hop_samples);
 }
 
-void Channel::append(const Sample& sample, bool measured) {
-  ring.append(sample, measured);
-  watch.step(sample, measured);
+void Channel::append(const Sample& sample, Place place) {
+  ring.append(sample, place == Place::kMeasured);
+  watch.step(sample, place != Place::kBridged);
   if (!learner) return;
-  learner->step(sample, measured, gate.rate_hz());
+  learner->step(sample, place != Place::kBridged, gate.rate_hz());
   if (const RestEvidence* rest = learner->evidence()) take_block(*rest);
   if (const auto update = learner->update()) noise = *update;
 }
@@ -53,14 +58,26 @@ void Channel::take_block(const RestEvidence& rest) {
   bias_s_ = rest.bias_s;
 }
 
+bool Channel::is_history(const Sample& sample) noexcept {
+  if (!published_before_) return false;
+  const bool known =
+      sample.sequence <= published_before_->sequence && sample.stamp_ns <= published_before_->stamp_ns;
+  if (!known) end_history();
+  return known;
+}
+
 void Channel::hear(double now_s) {
   watch.hear(now_s, gate.rate_hz());
   heard_s_ = now_s;
-  if (silent_) silent_ = false;
+  if (published_before_) {
+    if (!history_until_s_) history_until_s_ = now_s + kLongestHistory_s;
+    if (now_s > *history_until_s_) end_history();
+  }
+  if (state_ != ChannelState::kActive) state_ = ChannelState::kActive;
 }
 
-void Channel::fall_silent() {
-  silent_ = true;
+void Channel::fall_silent(ChannelState why) {
+  state_ = why;
   const std::lock_guard lock(mutex_);
   ++counts_.silences;
 }
@@ -254,7 +271,7 @@ ChannelSnapshot Channel::snapshot() const {
           .hop_samples = hop_samples_,
           .sample_rate_hz = rate_hz_,
           .pass_through = pass_through_,
-          .silent = silent_,
+          .state = state_,
           .health = health_,
           .curves = curves_,
           .curves_rate_hz = curves_rate_hz_,

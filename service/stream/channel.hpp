@@ -22,6 +22,13 @@
 
 namespace gyrod::stream {
 
+/// What stands at a position of a channel.
+enum class Place : std::uint8_t {
+  kMeasured,  ///< a sample that is to leave
+  kHistory,  ///< a sample that was published before this start: as above for window, filter and learner, but does not leave
+  kBridged,  ///< an interpolated place of a missing sample
+};
+
 /// Everything a channel owns, sized when it opens.
 ///
 /// Two parties touch it. The *intake* (the thread that pushes) judges and appends samples and submits
@@ -37,7 +44,7 @@ class Channel {
   // --- intake only
   // ---------------------------------------------------------------------------------------------------
   /// Takes the newest sample into the ring, and shows it to who learns the noise.
-  void append(const Sample& sample, bool measured);
+  void append(const Sample& sample, Place place);
   SampleGate gate;
   HopSchedule schedule;
   SampleRing ring;
@@ -50,12 +57,19 @@ class Channel {
   std::unique_ptr<NoiseLearner> learner;  ///< may be none
   HealthWatch watch;
 
+  /// Whether the sample was published before this start (EngineOptions::published_before).
+  [[nodiscard]] bool is_history(const Sample& sample) noexcept;
+  /// From now on nothing is history.
+  void end_history() noexcept { published_before_.reset(); }
+
   /// Samples have come at this time of the engine's clock.
   void hear(double now_s);
   /// Leaves a copy of what `watch` has seen for judge_health().
   void show_health();
-  /// Nothing has come for long: counts it, and what comes next begins a new window.
-  void fall_silent();
+  /// Nothing comes though it should: counts it, and what comes next begins a new window. @pre why is one of the silent states
+  void fall_silent(ChannelState why);
+  /// The sensor has ended. @param why kEnded, or one of the silent states
+  void end(ChannelState why = ChannelState::kEnded) noexcept { state_ = why; }
   /// Engine time of the newest push.
   [[nodiscard]] double heard_s() const noexcept { return heard_s_; }
 
@@ -116,7 +130,7 @@ class Channel {
   [[nodiscard]] std::optional<double> oldest_submission() const;
   /// Nobody works on it or is about to: what the intake does not touch, nobody does.
   [[nodiscard]] bool idle() const;
-  [[nodiscard]] bool silent() const noexcept { return silent_; }
+  [[nodiscard]] bool silent() const noexcept { return is_silent(state_); }
   [[nodiscard]] Counts counts() const;
   [[nodiscard]] ChannelSnapshot snapshot() const;
 
@@ -137,7 +151,9 @@ class Channel {
   std::uint64_t epoch_ = 0;
   bool pass_through_ = false;
   double heard_s_ = 0.0;  ///< the intake's alone
-  std::atomic<bool> silent_{false};
+  std::atomic<ChannelState> state_{ChannelState::kActive};
+  std::optional<double> history_until_s_;          ///< the intake's alone
+  std::optional<PublishedMark> published_before_;  ///< the intake's alone
   std::optional<ModelOrigin> offered_;
   std::uint32_t hop_samples_ = 0;
   double rate_hz_ = 0.0;

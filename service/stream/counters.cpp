@@ -8,8 +8,8 @@ namespace gyrod::stream {
 
 std::string_view name_of(RejectReason reason) noexcept {
   static constexpr std::array<std::string_view, kRejectReasons> kNames = {
-      "not_finite",     "out_of_range",      "duplicate",     "out_of_order",
-      "time_backwards", "too_many_channels", "bad_sensor_id", "shutting_down"};
+      "not_finite",        "out_of_range",  "duplicate",     "out_of_order", "time_backwards",
+      "too_many_channels", "bad_sensor_id", "shutting_down", "history"};
   return kNames[static_cast<std::size_t>(reason)];
 }
 

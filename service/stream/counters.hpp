@@ -30,8 +30,9 @@ enum class RejectReason : std::uint8_t {
   kTooManyChannels,  ///< a new sensor id beyond the channel limit, or beyond the memory there is
   kBadSensorId,      ///< empty, too long, or not printable
   kShuttingDown,     ///< arrived after the stop began
+  kHistory,          ///< was published before this start: it fills the window and is not published again
 };
-inline constexpr std::size_t kRejectReasons = 8;
+inline constexpr std::size_t kRejectReasons = 9;
 
 /// Stable snake_case name, as used in metrics and summaries.
 [[nodiscard]] std::string_view name_of(RejectReason reason) noexcept;
@@ -71,6 +72,19 @@ struct TimeHistogram {
   TimeHistogram& operator+=(const TimeHistogram& other) noexcept;
 };
 
+/// What is known of a sensor that may or may not send.
+enum class ChannelState : std::uint8_t {
+  kActive,          ///< it sends
+  kSilent,          ///< it has sent nothing for EngineOptions::silent_after_s
+  kDeadlineMissed,  ///< silent, too: it did not send within the time that its writer promised
+  kLivelinessLost,  ///< silent, too: its writer gave no sign of life within the time that it promised
+  kEnded,           ///< its writer said so, or is gone
+};
+
+[[nodiscard]] constexpr bool is_silent(ChannelState state) noexcept {
+  return state != ChannelState::kActive && state != ChannelState::kEnded;
+}
+
 /// A channel as monitoring sees it at one moment.
 struct ChannelSnapshot {
   std::string sensor;
@@ -79,8 +93,8 @@ struct ChannelSnapshot {
   std::size_t queued_windows = 0;
   std::uint32_t hop_samples = 0;
   double sample_rate_hz = 0.0;
-  bool pass_through = false;                ///< overload step 2 in force
-  bool silent = false;                      ///< nothing has come for EngineOptions::silent_after_s
+  bool pass_through = false;  ///< overload step 2 in force
+  ChannelState state = ChannelState::kActive;
   std::optional<SensorHealth> health = {};  ///< as of the last Engine::judge_health(); none before the first
   /// At rest, since the sensor is known; no terms while nothing is.
   AllanCurves curves{};
@@ -95,7 +109,7 @@ struct ChannelSnapshot {
 struct EngineSnapshot {
   Counts totals;  ///< includes samples that belong to no channel: refused ids, forgotten channels
   std::size_t channels = 0;
-  std::size_t silent_channels = 0;       ///< see ChannelSnapshot::silent
+  std::size_t silent_channels = 0;       ///< of the three states that are silent
   std::uint64_t forgotten_channels = 0;  ///< closed for good; their counts stay in `totals`
   std::size_t queued_windows = 0;        ///< over all channels
   HealthCounts channels_by_health{};     ///< of those that were judged

@@ -202,6 +202,9 @@ std::size_t Engine::push(std::string_view sensor, std::span<const Sample> sample
   return impl_->push(sensor, samples);
 }
 void Engine::end_of_stream(std::string_view sensor) noexcept { impl_->end_of_stream(sensor); }
+void Engine::fall_silent(std::string_view sensor, ChannelState why) noexcept {
+  impl_->fall_silent(sensor, why);
+}
 void Engine::tend() noexcept { impl_->tend(); }
 void Engine::judge_health() { impl_->judge_health(); }
 void Engine::fit_curves() { impl_->fit_curves(); }

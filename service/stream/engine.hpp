@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,6 +79,10 @@ struct EngineOptions {
   /// What is known beforehand of a sensor's noise: asked once, when its channel opens. May be empty: nothing. May throw std::bad_alloc
   /// only, which refuses the channel.
   std::function<ChannelNoise(std::string_view sensor)> noise;
+  /// The newest sample of the sensor that was published before this start, by another process that served it: asked once, when its
+  /// channel opens. Samples up to it fill the window and do not leave again; they are counted as RejectReason::kHistory. Holds for 10 s
+  /// from the sensor's first samples on. May be empty: nothing was published before.
+  std::function<std::optional<PublishedMark>(std::string_view sensor)> published_before;
   /// Makes what learns a sensor's noise, when its channel opens; it may answer with none. May be empty: nobody learns. May throw
   /// std::bad_alloc only.
   std::function<std::unique_ptr<NoiseLearner>(std::string_view sensor)> learner;
@@ -104,12 +109,16 @@ class Engine {
   /// Takes samples of one sensor, oldest first. Opens a channel for a new sensor. Refuses bad samples, each
   /// counted under one reason. Waits while the sensor's windows wait for a worker (backpressure), at most
   /// until overload is declared. Does not allocate once the channel is open.
-  /// @return samples accepted; the rest was refused
+  /// @return samples that will leave; the rest was refused, or has left before (EngineOptions::published_before)
   std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
 
   /// The sensor has ended: releases what its channel holds (flagged kTail) and forgets its window; the
   /// channel and its counts stay, and a later sample opens a new window.
   void end_of_stream(std::string_view sensor) noexcept;
+
+  /// The bus tells that the sensor does not send though it should: what tend() does of a silent sensor, at once. Where it has ended, only
+  /// its state says why; nothing where it is silent already. @pre why is kDeadlineMissed or kLivelinessLost
+  void fall_silent(std::string_view sensor, ChannelState why) noexcept;
 
   /// Looks after sensors that send nothing: time alone brings no sample, so whoever pushes calls this about once a second.
   ///   silent:    its window is closed as by a gap, its last samples flagged kTail; what comes next begins a new window. Where

@@ -28,6 +28,7 @@ class Engine::Impl {
 
   std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
   void end_of_stream(std::string_view sensor) noexcept;
+  void fall_silent(std::string_view sensor, ChannelState why) noexcept;
   void tend() noexcept;
   void judge_health();
   void fit_curves();
@@ -45,15 +46,15 @@ class Engine::Impl {
   void listen_again();
   bool take(Channel& channel, const Sample& sample);
   void bridge(Channel& channel, const Sample& next, std::uint64_t count);
-  void append(Channel& channel, const Sample& sample, bool measured);
+  void append(Channel& channel, const Sample& sample, Place place);
   void hop(Channel& channel);
   void close_segment(Channel& channel, bool ends_stream);
   void adjust_hop(Channel& channel);
-  void fall_silent(Channel& channel);
+  void fall_silent(Channel& channel, ChannelState why);
   void forget(double now_s);
 
   // Fast loop of model methods, in the thread that pushes (intake_models.cpp).
-  void step_fast_loop(Channel& channel, const Sample& newest, bool measured);
+  void step_fast_loop(Channel& channel, const Sample& newest, Place place);
   [[nodiscard]] std::uint32_t state_flags(const Channel& channel) const;
   [[nodiscard]] bool adopt_models(Channel& channel);
   [[nodiscard]] bool models_are_late(const Channel& channel) const;

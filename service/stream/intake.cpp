@@ -47,7 +47,7 @@ void Engine::Impl::refuse(std::size_t samples, RejectReason reason) {
   homeless_.rejected[static_cast<std::size_t>(reason)] += samples;
 }
 
-/// @return false where the sample was refused
+/// @return false where the sample was refused, or is not to leave
 bool Engine::Impl::take(Channel& channel, const Sample& sample) {
   channel.count_received();
   const Verdict verdict = channel.gate.judge(sample);
@@ -59,6 +59,7 @@ bool Engine::Impl::take(Channel& channel, const Sample& sample) {
   channel.count_accepted(verdict);
   // What a sensor did not send while it was silent is not a loss.
   if (!channel.asleep) channel.watch.lose(verdict.missing);
+  if (verdict.kind == Verdict::Kind::kRestart) channel.end_history();
   if (channel.asleep) {
     channel.asleep = false;
   } else if (verdict.kind == Verdict::Kind::kAccept) {
@@ -66,8 +67,10 @@ bool Engine::Impl::take(Channel& channel, const Sample& sample) {
   } else {
     close_segment(channel, false);
   }
-  append(channel, sample, true);
-  return true;
+  const bool history = channel.is_history(sample);
+  if (history) channel.count_rejected(RejectReason::kHistory);
+  append(channel, sample, history ? Place::kHistory : Place::kMeasured);
+  return !history;
 }
 
 void Engine::Impl::bridge(Channel& channel, const Sample& next, std::uint64_t count) {
@@ -78,15 +81,15 @@ void Engine::Impl::bridge(Channel& channel, const Sample& next, std::uint64_t co
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
       filled.rate_radps[axis] = core::bridge(left.rate_radps[axis], next.rate_radps[axis], step, count);
     }
-    append(channel, filled, false);
+    append(channel, filled, Place::kBridged);
     channel.count_bridged();
   }
 }
 
-void Engine::Impl::append(Channel& channel, const Sample& sample, bool measured) {
+void Engine::Impl::append(Channel& channel, const Sample& sample, Place place) {
   wait_while(channel, [&channel] { return !channel.has_room(); });
-  channel.append(sample, measured);
-  if (channel.fast_loop) step_fast_loop(channel, sample, measured);
+  channel.append(sample, place);
+  if (channel.fast_loop) step_fast_loop(channel, sample, place);
   if (channel.schedule.at_boundary(channel.ring.end())) hop(channel);
 }
 
@@ -133,7 +136,9 @@ void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
   if (channel == nullptr || stopping_ || !channel->gate.is_open()) return;
   close_segment(*channel, true);
   channel->gate.reopen();
+  channel->end_history();
   channel->asleep = false;
+  channel->end();
   channel->watch.end();
   channel->show_health();
   listen_again();
@@ -148,17 +153,28 @@ void Engine::Impl::tend() noexcept {
   if (options_.silent_after_s > 0.0) {
     registry_.for_each(options_.max_channels, [this, now_s](Channel& channel) {
       const bool quiet = now_s - channel.heard_s() > options_.silent_after_s;
-      if (quiet && !channel.silent() && channel.gate.is_open()) fall_silent(channel);
+      if (quiet && !channel.silent() && channel.gate.is_open()) fall_silent(channel, ChannelState::kSilent);
     });
   }
   if (options_.forget_after_s > 0.0) forget(now_s);
 }
 
+void Engine::Impl::fall_silent(std::string_view sensor, ChannelState why) noexcept {
+  Channel* channel = registry_.find(sensor);
+  if (channel == nullptr || stopping_ || channel->silent()) return;
+  if (channel->gate.is_open()) {
+    fall_silent(*channel, why);
+  } else {
+    channel->end(why);
+  }
+}
+
 /// The gate stays open: it tells what was missing when the sensor is back.
-void Engine::Impl::fall_silent(Channel& channel) {
+void Engine::Impl::fall_silent(Channel& channel, ChannelState why) {
   close_segment(channel, false);
   channel.asleep = true;
-  channel.fall_silent();
+  channel.gate.expect_restart();
+  channel.fall_silent(why);
 }
 
 void Engine::Impl::forget(double now_s) {

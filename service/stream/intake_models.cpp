@@ -27,13 +27,13 @@ DenoisedSample estimated(const FastLoop& loop, const Sample& sample,
 
 }  // namespace
 
-void Engine::Impl::step_fast_loop(Channel& channel, const Sample& newest, bool measured) {
+void Engine::Impl::step_fast_loop(Channel& channel, const Sample& newest, Place place) {
   FastLoop& loop = *channel.fast_loop;
   const FastLoop::Answer answer = loop.step(newest.rate_radps);
   channel.count_misfits(loop.take_new_misfits());
   std::uint32_t flags = state_flags(channel);
   if (channel.schedule.widened() || channel.models_late) flags |= bit(SampleFlag::kHopWidened);
-  if (measured) {
+  if (place == Place::kMeasured) {
     if (realtime_outbox_.size() == realtime_outbox_.capacity()) flush(channel);
     realtime_outbox_.push_back(estimated(loop, newest, answer.realtime, flags));
   }
@@ -81,7 +81,7 @@ bool Engine::Impl::models_are_late(const Channel& channel) const {
 
 void Engine::Impl::release_estimate(Channel& channel, Position position,
                                     const std::array<Estimate, kAxes>& estimate, std::uint32_t flags) {
-  if (!channel.ring.measured(position)) return;
+  if (!channel.ring.released(position)) return;
   if (outbox_.size() == outbox_.capacity()) flush(channel);
   outbox_.push_back(estimated(*channel.fast_loop, channel.ring.at(position), estimate, flags));
 }

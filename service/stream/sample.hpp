@@ -23,6 +23,12 @@ struct Sample {
   std::optional<std::array<double, kAxes>> specific_force_mps2 = {};
 };
 
+/// The newest sample of a sensor that somebody has published.
+struct PublishedMark {
+  std::uint64_t sequence = 0;
+  std::int64_t stamp_ns = 0;
+};
+
 /// What a released sample's `flags` say. Bits, combined by or.
 enum class SampleFlag : std::uint32_t {
   /// The window was not full yet: denoised on what there was.

@@ -6,6 +6,9 @@
 namespace gyrod::stream {
 namespace {
 
+/// Sequence numbers before the newest of which is known whether they came: bits of seen_.
+constexpr std::uint64_t kRemembered = 64;
+
 /// Samples of a sensor that does not count.
 bool unnumbered(const Sample& sample, std::uint64_t last_sequence) noexcept {
   return sample.sequence == 0 && last_sequence == 0;
@@ -24,14 +27,16 @@ Verdict SampleGate::judge(const Sample& sample) noexcept {
     return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
   }
   if (!open_) {
+    const std::uint64_t missing = missing_since_end(sample);
     remember(sample);
-    return {};
+    return {.missing = missing};
   }
   if (const auto reason = stale(sample)) {
     // A sample that comes a second time, stamp and all, is no sign of a new beginning, however many of them come.
     if (sample.sequence > last_sequence_) ++refused_ahead_;
     const bool repeated = *reason == RejectReason::kDuplicate && sample.stamp_ns <= last_stamp_ns_;
-    if (repeated || !begins_anew(sample)) return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
+    const bool anew = (restart_expected_ && older_by_far(sample)) || begins_anew(sample);
+    if (repeated || !anew) return {.kind = Verdict::Kind::kRefuse, .reason = *reason};
     reopen();
     remember(sample);
     return {.kind = Verdict::Kind::kRestart};
@@ -58,12 +63,36 @@ std::optional<RejectReason> SampleGate::stale(const Sample& sample) const noexce
   const bool without_number = unnumbered(sample, last_sequence_);
   if (!without_number && sample.sequence <= last_sequence_) {
     const std::uint64_t age = last_sequence_ - sample.sequence;
-    const bool seen = age < 64 && ((seen_ >> age) & 1U) != 0;
+    const bool seen = age < kRemembered && ((seen_ >> age) & 1U) != 0;
     return seen ? RejectReason::kDuplicate : RejectReason::kOutOfOrder;
   }
   if (sample.stamp_ns > last_stamp_ns_) return std::nullopt;
   return without_number && sample.stamp_ns == last_stamp_ns_ ? RejectReason::kDuplicate
                                                              : RejectReason::kTimeBackwards;
+}
+
+/// A network that was gone, not a sensor that began anew: then numbers and stamps have advanced alike.
+std::uint64_t SampleGate::missing_since_end(const Sample& sample) const noexcept {
+  constexpr double kAlike =
+      0.05;  // of the numbers: clocks and the estimated period are better, other numberings far worse
+  if (!ever_open_ || sample.sequence <= last_sequence_ || sample.stamp_ns <= last_stamp_ns_) return 0;
+  const std::uint64_t step = sample.sequence - last_sequence_;
+  const auto numbers = static_cast<double>(step);
+  // Wrapping subtraction, as in advance().
+  const auto interval_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_ns) -
+                                                     static_cast<std::uint64_t>(last_stamp_ns_));
+  const double periods = periods_in(interval_ns);
+  const bool goes_on = step <= kLargestLoss && std::abs(periods - numbers) <= kAlike * numbers;
+  return goes_on ? step - 1 : 0;
+}
+
+/// By stamp where there are numbers, too: a sensor that reboots soon has small ones before and after.
+bool SampleGate::older_by_far(const Sample& sample) const noexcept {
+  // Wrapping subtraction, as in advance().
+  const auto back_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(last_stamp_ns_) -
+                                                 static_cast<std::uint64_t>(sample.stamp_ns));
+  const bool by_number = sample.sequence < last_sequence_ && last_sequence_ - sample.sequence >= kRemembered;
+  return by_number || back_ns > kLongestPauseNs;
 }
 
 bool SampleGate::begins_anew(const Sample& sample) noexcept {
@@ -97,8 +126,9 @@ Verdict SampleGate::advance(const Sample& sample) noexcept {
   // Wrapping subtraction: stamps of opposite ends of the clock differ by more than an int64 holds.
   const auto interval_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.stamp_ns) -
                                                      static_cast<std::uint64_t>(last_stamp_ns_));
-  const bool renumbered =
-      step > kLargestLoss || interval_ns < 0 || periods_in(interval_ns) > static_cast<double>(kLargestLoss);
+  const bool clock_set = sample.sequence != 0 && step == 1 && interval_ns > kClockSetNs;
+  const bool renumbered = step > kLargestLoss || interval_ns < 0 || clock_set ||
+                          periods_in(interval_ns) > static_cast<double>(kLargestLoss);
   const std::uint64_t by_sequence = renumbered ? 0 : step - 1;
   const std::uint64_t absent = renumbered ? 0 : std::max(by_sequence, missing_by_stamp(interval_ns));
   const std::uint64_t missing = absent - std::min(absent, refused_ahead_);
@@ -120,12 +150,13 @@ Verdict SampleGate::advance(const Sample& sample) noexcept {
 
 void SampleGate::remember(const Sample& sample) noexcept {
   const std::uint64_t step = sample.sequence - last_sequence_;
-  seen_ = open_ && step < 64 ? (seen_ << step) | 1U : 1U;
-  open_ = true;
+  seen_ = open_ && step < kRemembered ? (seen_ << step) | 1U : 1U;
+  open_ = ever_open_ = true;
   last_sequence_ = sample.sequence;
   last_stamp_ns_ = sample.stamp_ns;
   refused_ahead_ = 0;
   suspects_ = 0;
+  restart_expected_ = false;
 }
 
 }  // namespace gyrod::stream

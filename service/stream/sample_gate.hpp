@@ -43,6 +43,8 @@ class SampleGate {
   /// A pause longer than this closes the window even where the stamps are too irregular to count missing
   /// samples.
   static constexpr std::int64_t kLongestPauseNs = 1'000'000'000;
+  /// A sensor that leaves out no number and steps further ahead in time than this has not lost samples: its clock was set.
+  static constexpr std::int64_t kClockSetNs = 60'000'000'000;
   /// A sequence step beyond this is not a loss but another numbering, as many periods in time another clock.
   static constexpr std::uint64_t kLargestLoss = 1ULL << 31U;
 
@@ -50,7 +52,12 @@ class SampleGate {
 
   [[nodiscard]] Verdict judge(const Sample& sample) noexcept;
 
-  /// Forgets the newest sample (the sensor ended), keeps the period.
+  /// Nothing has come for long: a sample that is older by far, 64 numbers or kLongestPauseNs, is then taken for a new beginning at once,
+  /// and not after kAnew of them. Until the next sample that is taken.
+  void expect_restart() noexcept { restart_expected_ = true; }
+
+  /// The sensor has ended: the next sample is taken, whatever its number and stamp, and begins a new window. Where both go on as if it had
+  /// sent all the time, what lies between is missing; the period is kept.
   void reopen() noexcept;
 
   /// True once a sample was accepted since the beginning or since reopen().
@@ -61,6 +68,8 @@ class SampleGate {
  private:
   [[nodiscard]] std::optional<RejectReason> unfit(const Sample& sample) const noexcept;
   [[nodiscard]] std::optional<RejectReason> stale(const Sample& sample) const noexcept;
+  [[nodiscard]] std::uint64_t missing_since_end(const Sample& sample) const noexcept;
+  [[nodiscard]] bool older_by_far(const Sample& sample) const noexcept;
   [[nodiscard]] bool begins_anew(const Sample& sample) noexcept;
   [[nodiscard]] double periods_in(std::int64_t interval_ns) const noexcept;
   [[nodiscard]] std::uint64_t missing_by_stamp(std::int64_t interval_ns) const noexcept;
@@ -70,12 +79,14 @@ class SampleGate {
   GateOptions options_;
   PeriodEstimator period_;
   bool open_ = false;
+  bool ever_open_ = false;
   std::uint64_t last_sequence_ = 0;
   std::int64_t last_stamp_ns_ = 0;
   std::uint64_t seen_ = 0;  ///< bit i: sequence number last_sequence_ - i has arrived
   std::uint64_t refused_ahead_ =
       0;              ///< unfit samples newer than the last accepted one: arrived, so not missing
   Sample suspect_{};  ///< last stale sample
+  bool restart_expected_ = false;
   int suspects_ = 0;  ///< stale samples in a row that agree with one another
 };
 

@@ -22,7 +22,7 @@ using Position = std::int64_t;
 /// allocates nothing after.
 class SampleRing {
  public:
-  explicit SampleRing(std::size_t capacity) : stamps_(capacity), sequences_(capacity), measured_(capacity) {
+  explicit SampleRing(std::size_t capacity) : stamps_(capacity), sequences_(capacity), released_(capacity) {
     for (auto& axis : rates_) axis.resize(capacity);
   }
 
@@ -30,17 +30,18 @@ class SampleRing {
   /// The position that comes next.
   [[nodiscard]] Position end() const noexcept { return end_; }
 
-  /// @param measured false for a bridged position, which is never released
-  void append(const Sample& sample, bool measured) noexcept {
+  /// @param released false for a position that never leaves: a bridged one, or one that was published before
+  void append(const Sample& sample, bool released) noexcept {
     const std::size_t slot = slot_of(end_);
     for (std::size_t axis = 0; axis < kAxes; ++axis) rates_[axis][slot] = sample.rate_radps[axis];
     sequences_[slot] = sample.sequence;
     stamps_[slot] = sample.stamp_ns;
-    measured_[slot] = measured ? 1 : 0;
+    released_[slot] = released ? 1 : 0;
     ++end_;
   }
 
-  [[nodiscard]] bool measured(Position position) const noexcept { return measured_[slot_of(position)] != 0; }
+  /// Whether the position is to leave.
+  [[nodiscard]] bool released(Position position) const noexcept { return released_[slot_of(position)] != 0; }
 
   [[nodiscard]] Sample at(Position position) const noexcept {
     const std::size_t slot = slot_of(position);
@@ -64,7 +65,7 @@ class SampleRing {
   std::array<std::vector<double>, kAxes> rates_;
   std::vector<std::int64_t> stamps_;
   std::vector<std::uint64_t> sequences_;
-  std::vector<std::uint8_t> measured_;
+  std::vector<std::uint8_t> released_;
   Position end_ = 0;
 };
 

@@ -52,7 +52,7 @@ void Workbench::work(Channel& channel, const WindowJob& job, bool pass_through) 
 /// The measured samples of the part to be released, as they came.
 void Workbench::collect(const Channel& channel, const WindowJob& job) noexcept {
   for (Position position = job.release_begin; position < job.release_end; ++position) {
-    if (!channel.ring.measured(position)) continue;
+    if (!channel.ring.released(position)) continue;
     const Sample sample = channel.ring.at(position);
     samples_.push_back({.sequence = sample.sequence,
                         .stamp_ns = sample.stamp_ns,
@@ -67,7 +67,7 @@ void Workbench::denoise(WindowMethod& method, const Channel& channel, const Wind
     method.denoise(input(channel, job, axis), denoised, report_.axis[axis]);
     std::size_t index = 0;
     for (Position position = job.release_begin; position < job.release_end; ++position) {
-      if (!channel.ring.measured(position)) continue;
+      if (!channel.ring.released(position)) continue;
       samples_[index].rate_radps[axis] = denoised[static_cast<std::size_t>(position - job.begin)];
       samples_[index].rate_std_radps[axis] = report_.axis[axis].output_noise;
       samples_[index].noise_floor_radps[axis] = report_.axis[axis].noise_floor;

@@ -45,7 +45,7 @@ const std::vector<Room>& rooms() {
       {"report", {"core/", "web"}, {"nlohmann/"}},
       {"app",
        {"core/", "stream", "ros2", "fleet", "bus", "monitor", "settings", "files", "web", "report"},
-       {"CLI/", "Eigen/", "nlohmann/", "spdlog/", "systemd/", "sys/", "unistd.h"}}};
+       {"CLI/", "Eigen/", "fcntl.h", "nlohmann/", "spdlog/", "systemd/", "sys/", "unistd.h"}}};
   return table;
 }
 

@@ -171,7 +171,8 @@ Figures ros2_topics(const bus::Domain& domain, pid_t daemon) {
   for (std::size_t s = 0; s < kSensors; ++s) {
     publishers.push_back(std::make_unique<testing::ImuPublisher>(domain.participant(), ros2_topic(s)));
     readers.push_back(std::make_unique<bus::TopicReader<bus::Imu>>(
-        domain.participant(), ros2_topic(s) + "_realtime", bus::imu_reader_qos(options)));
+        domain.participant(), ros2_topic(s) + "_realtime",
+        bus::imu_reader_qos(options, bus::Reliability::kBestEffort)));
     bus::check(dds_waitset_attach(waitset.get(), readers.back()->data_condition(), 0), "wait");
   }
   const auto matched = [&] {

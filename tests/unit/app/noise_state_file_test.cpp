@@ -1,8 +1,12 @@
 #include "app/noise_state_file.hpp"
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -108,6 +112,45 @@ TEST_F(NoiseStateFileTest, SurvivesAFullDisk) {
   NoiseStateFile full = file("/dev/full");
   EXPECT_FALSE(full.save(states(60.0)));
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("No space left on device")));
+}
+
+// A save takes a fraction of a millisecond; the moments are spread over several.
+TEST_F(NoiseStateFileTest, AProcessThatIsKilledAtAnyMomentOfASaveLeavesAWholeFile) {
+  ASSERT_TRUE(file(path).save(states(1.0)));
+  for (int round = 0; round < 30; ++round) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      NoiseStateFile saved = file(path);
+      for (double seconds = 1.0;; seconds += 1.0) (void)saved.save(states(seconds));
+    }
+    usleep(2000 + 137 * static_cast<unsigned>(round));
+    kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_THAT(file(path).load(), SizeIs(1)) << round;
+  }
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+// Who asked for the size, here by a limit on the process, would get the same answer from a full disk: the write fails.
+TEST_F(NoiseStateFileTest, AFullDiskIsCountedAndTheOldFileStaysUntilThereIsRoom) {
+  NoiseStateFile kept = file(path);
+  ASSERT_TRUE(kept.save(states(1.0)));
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit full{16, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  const bool saved = kept.save(states(2.0));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, ignored);
+  EXPECT_FALSE(saved);
+  EXPECT_EQ(kept.errors(), 1U);
+  EXPECT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(kept.load().begin()->second.rest_seconds, 1.0);
+  EXPECT_TRUE(kept.save(states(3.0)));
+  EXPECT_EQ(kept.load().begin()->second.rest_seconds, 3.0);
 }
 
 }  // namespace

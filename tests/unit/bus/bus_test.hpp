@@ -116,6 +116,20 @@ class Collector {
     changed_.notify_all();
   }
 
+  void break_promise(std::string_view sensor, stream::ChannelState why) {
+    const std::lock_guard lock(mutex_);
+    broken_promises_.emplace_back(sensor, why);
+    changed_.notify_all();
+  }
+  [[nodiscard]] bool wait_for_broken_promises(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, kPatience, [&] { return broken_promises_.size() >= count; });
+  }
+  [[nodiscard]] std::vector<std::pair<std::string, stream::ChannelState>> broken_promises() {
+    const std::lock_guard lock(mutex_);
+    return broken_promises_;
+  }
+
   /// While closed, the handler does not come back from on_samples().
   void set_open(bool open) {
     const std::lock_guard lock(mutex_);
@@ -151,6 +165,7 @@ class Collector {
   std::size_t count_ = 0;
   std::map<std::string, std::vector<Sample>> samples_;
   std::vector<std::pair<std::string, std::size_t>> ends_;
+  std::vector<std::pair<std::string, stream::ChannelState>> broken_promises_;
 };
 
 class SampleCollector : public SampleHandler, public Collector<stream::Sample> {
@@ -159,6 +174,9 @@ class SampleCollector : public SampleHandler, public Collector<stream::Sample> {
     add(sensor, samples);
   }
   void on_end(std::string_view sensor) noexcept override { end(sensor); }
+  void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override {
+    break_promise(sensor, why);
+  }
 };
 
 class RecordCollector : public RecordHandler, public Collector<stream::DenoisedSample> {

@@ -34,7 +34,7 @@ TEST_P(HealthReportTest, ALateReaderGetsTheLastOfEachSensorUntilItIsForgotten) {
   publisher.unregister_health("gone");
 
   Qos qos;
-  qos.reliable(0).keep_all().latest_for_late_joiners();
+  qos.reliable(0).keep_all().keep_for_late_joiners(1);
   const Domain domain = reader_domain();
   const TopicReader<gyrod_HealthReport> reader(domain.participant(), options_.topics.health, qos);
   std::vector<std::string> sensors;

@@ -33,6 +33,9 @@ class Handler final : public ImuHandler {
     return sample.rate_radps[0] >= 0.0;
   }
   void on_end(std::string_view sensor) noexcept override { collector_.end(sensor); }
+  void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override {
+    collector_.break_promise(sensor, why);
+  }
   void on_topic(std::string_view topic, const ros2::Outputs& /*outputs*/) noexcept override {
     const std::lock_guard lock(mutex_);
     opened_.emplace_back(topic);
@@ -129,6 +132,43 @@ TEST_P(ImuTopicsTest, NoMoreMessagesWaitThanThereIsRoomForAndTheRestIsCounted) {
   EXPECT_EQ(handler_.collector().samples(topic("imu")).size(), 4U);
 }
 
+TEST_P(ImuTopicsTest, ReliableAndBestEffortPublishersAreReadAndEachMessageOnce) {
+  options_.ros2.topics = {topic("imu")};
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  subscriber.start();
+  const auto best_effort = publisher(topics, "imu");
+  const ImuPublisher reliable(writer_domain_.participant(), topic("imu"), true);
+  wait_until([&] { return topics.snapshot().matched_writers == 2; });
+  ASSERT_TRUE(reliable.wait_for_reader());
+  for (std::uint64_t n = 0; n < 20; ++n) {
+    best_effort->publish(imu_message(2 * n, static_cast<std::int64_t>(2 * n), {-1.0, 0.0, 0.0}));
+    reliable.publish(imu_message(2 * n + 1, static_cast<std::int64_t>(2 * n + 1), {-1.0, 0.0, 0.0}));
+    ASSERT_TRUE(handler_.collector().wait_for_samples(2 * n + 2));
+  }
+  subscriber.stop();
+  EXPECT_EQ(handler_.collector().samples(topic("imu")).size(), 40U);
+}
+
+TEST_P(ImuTopicsTest, APublisherThatMissesItsDeadlineIsTold) {
+  options_.ros2.topics = {topic("imu")};
+  options_.ros2.input.deadline_s = options_.ros2.output.deadline_s = 0.2;
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  subscriber.start();
+  const TopicWriter<sensor_msgs_msg_dds__Imu_> writer(writer_domain_.participant(), topic("imu"),
+                                                      imu_writer_qos(options_.ros2));
+  wait_until([&] { return writer.has_readers() && topics.snapshot().matched_writers == 1; });
+  testing::ImuMessage message = imu_message(1, 10, {-1.0, 0.0, 0.0});
+  message.fields.header.frame_id = message.frame_id.data();
+  EXPECT_EQ(writer.write(message.fields), DDS_RETCODE_OK);
+  writer.flush();
+  ASSERT_TRUE(handler_.collector().wait_for_broken_promises(1));
+  EXPECT_EQ(handler_.collector().broken_promises().front(),
+            std::pair(topic("imu"), stream::ChannelState::kDeadlineMissed));
+  EXPECT_GE(topics.snapshot().broken_promises.deadlines_missed, 1U);
+}
+
 TEST_P(ImuTopicsTest, ATopicEndsWhenItsLastPublisherHasGone) {
   options_.ros2.topics = {topic("imu")};
   ImuTopics topics(reader_domain_, options_);
@@ -154,7 +194,7 @@ TEST_P(ImuTopicsTest, APatternOpensWhatHasTheTypeAndARoomAndOutputsOfItsOwn) {
   ImuSubscriber subscriber(topics, handler_);
   subscriber.start();
   const TopicWriter<gyrod_GyroSample> other_type(writer_domain_.participant(), topic("other_type"),
-                                                 input_writer_qos());
+                                                 input_writer_qos(options_));
   const ImuPublisher output(writer_domain_.participant(), topic("imu_realtime"));
   const ImuPublisher deeper(writer_domain_.participant(), topic("a/imu"));
   const auto wanted = publisher(topics, "imu_raw");

@@ -115,7 +115,7 @@ TEST_P(NoiseReportTest, AFullAndAnEmptyReportSurviveAndTheLastOneServesALateRead
   publisher.publish_report("empty", empty);
 
   Qos qos;
-  qos.reliable(0).keep_all().latest_for_late_joiners();
+  qos.reliable(0).keep_all().with_the_past();
   const Domain domain = reader_domain();
   const TopicReader<gyrod_NoiseReport> reader(domain.participant(), options_.topics.noise, qos);
   std::size_t full_ones = 0;

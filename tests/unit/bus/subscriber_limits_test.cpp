@@ -52,7 +52,8 @@ TEST_P(SubscriberLimitsTest, MalformedMessagesAreCountedAndTheRestPasses) {
   publish_all(writer, "gyro", make_samples(0, 9));
   publish_all(writer, "gyro", make_samples(0, 8));
   const Domain domain = writer_domain();
-  const TopicWriter<gyrod_GyroSample> nameless(domain.participant(), options_.topics.raw, input_writer_qos());
+  const TopicWriter<gyrod_GyroSample> nameless(domain.participant(), options_.topics.raw,
+                                               input_writer_qos(options_));
   wait_until([&] { return nameless.has_readers(); });
   EXPECT_EQ(nameless.write(gyrod_GyroSample{}), DDS_RETCODE_OK);
   nameless.flush();

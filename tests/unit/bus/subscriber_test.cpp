@@ -172,7 +172,7 @@ TEST_P(SubscriberTest, StopComesBackUnderAWriterThatNeverPauses) {
 }
 
 TEST_P(SubscriberTest, ABestEffortKeepLastInputIsFedByAReliableWriter) {
-  options_.input_reliability = Reliability::kBestEffort;
+  options_.input_reliability = InputReliability::kBestEffort;
   options_.input_history = History::kKeepLast;
   Subscriber subscriber(reader_domain(), options_, collector_);
   subscriber.start();

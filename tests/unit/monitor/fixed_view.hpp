@@ -1,6 +1,7 @@
 /// A view of an engine and a bus that are not there, with values that tell every metric from the others.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@ struct Shown {
   BusSnapshot bus;
   FleetSnapshot fleet;
   Readiness readiness{.ready = true, .reason = ""};
+  std::uint64_t state_file_errors = 0;
 };
 
 /// A sensor that has had windows: every figure known.
@@ -36,7 +38,7 @@ inline stream::ChannelSnapshot busy_sensor(std::string name) {
   sensor.queued_windows = 2;
   sensor.hop_samples = 64;
   sensor.sample_rate_hz = 99.5;
-  sensor.silent = true;
+  sensor.state = stream::ChannelState::kDeadlineMissed;
   stream::NoiseReport& report = sensor.last_report;
   report.model_epoch = 15;
   report.last_stamp_ns = 1'700'000'000'500'000'000;
@@ -84,7 +86,7 @@ inline stream::ChannelSnapshot new_sensor(std::string name) {
 inline Shown busy_gyrod() {
   Shown shown;
   stream::Counts& totals = shown.engine.totals;
-  totals = {.received = 1000,
+  totals = {.received = 1009,
             .published = 900,
             .in_flight = 64,
             .missing = 11,
@@ -113,15 +115,20 @@ inline Shown busy_gyrod() {
   for (const double seconds : {20e-6, 0.0015, 0.0015, 0.3, 60.0}) shown.engine.window_time.add(seconds);
   shown.engine.added_latency.add(0.004);
   shown.channels = {busy_sensor("imu_front"), new_sensor("imu_rear")};
-  shown.bus = {.matched_writers = 2,
-               .malformed_messages = 21,
-               .refusals = 22,
-               .write_errors = 23,
-               .ros2_topics = 24,
-               .ros2_refused_topics = 25,
-               .ros2_dropped_messages = 26,
-               .certificate_expiry_s = 1.8e9,
-               .refused_peers = 37};
+  shown.bus = {
+      .matched_writers = 2,
+      .malformed_messages = 21,
+      .refusals = 22,
+      .write_errors = 23,
+      .ros2_topics = 24,
+      .ros2_refused_topics = 25,
+      .ros2_dropped_messages = 26,
+      .certificate_expiry_s = 1.8e9,
+      .refused_peers = 37,
+      .deadlines_missed = 47,
+      .liveliness_lost = 48,
+      .incompatible_peers = {{"input", "reliability", 3}, {"output", "type", 0}},
+      .standby = StandbySnapshot{.others = 57, .sensors = 58, .held = 59, .let_go = 60, .takeovers = 61}};
   shown.fleet = {.shard = "2/3",
                  .active = true,
                  .peers = 27,
@@ -130,6 +137,7 @@ inline Shown busy_gyrod() {
                  .missing = 30,
                  .disputes = 31,
                  .foreign_samples = 32};
+  shown.state_file_errors = 62;
   return shown;
 }
 
@@ -144,7 +152,8 @@ inline View view_of(const Shown& shown) {
               },
           .bus = [&shown] { return shown.bus; },
           .fleet = [&shown] { return shown.fleet; },
-          .readiness = [&shown] { return shown.readiness; }};
+          .readiness = [&shown] { return shown.readiness; },
+          .state_file_errors = [&shown] { return shown.state_file_errors; }};
 }
 
 }  // namespace gyrod::monitor::test

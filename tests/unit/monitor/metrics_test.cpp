@@ -56,7 +56,7 @@ TEST(Metrics, EveryFamilyHasHelpTypeAndATellingName) {
 
 TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
   const auto families = families_of(busy_gyrod());
-  const std::map<std::string, double> expected = {{"gyrod_samples_received_total", 1000},
+  const std::map<std::string, double> expected = {{"gyrod_samples_received_total", 1009},
                                                   {"gyrod_samples_published_total", 900},
                                                   {"gyrod_samples_in_flight", 64},
                                                   {"gyrod_samples_missing_total", 11},
@@ -73,6 +73,12 @@ TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
                                                   {"gyrod_silences_total", 5},
                                                   {"gyrod_sensors_silent", 1},
                                                   {"gyrod_sensors_forgotten_total", 7},
+                                                  {"gyrod_state_file_errors_total", 62},
+                                                  {"gyrod_standby_others", 57},
+                                                  {"gyrod_standby_sensors", 58},
+                                                  {"gyrod_standby_samples_held", 59},
+                                                  {"gyrod_standby_samples_let_go_total", 60},
+                                                  {"gyrod_standby_takeovers_total", 61},
                                                   {"gyrod_sensors", 2},
                                                   {"gyrod_queued_windows", 6},
                                                   {"gyrod_workers", 4},
@@ -93,11 +99,16 @@ TEST(Metrics, TotalsAreTheEnginesAndTheBuses) {
                                                   {"gyrod_shards_missing", 30},
                                                   {"gyrod_shard_disputes_total", 31},
                                                   {"gyrod_shard_foreign_samples_total", 32},
+                                                  {"gyrod_bus_deadlines_missed_total", 47},
+                                                  {"gyrod_bus_liveliness_lost_total", 48},
                                                   {"gyrod_uptime_seconds", 42.5},
                                                   {"process_start_time_seconds", 1.7e9}};
   for (const auto& [name, value] : expected) EXPECT_EQ(value_of(families, name), value) << name;
   EXPECT_EQ(value_of(families, "gyrod_build_info", {{"version", "1.2.3"}}), 1.0);
   EXPECT_EQ(value_of(families, "gyrod_shard_active", {{"shard", "2/3"}}), 1.0);
+  const char* const peers = "gyrod_bus_incompatible_peers";
+  EXPECT_EQ(value_of(families, peers, {{"direction", "input"}, {"policy", "reliability"}}), 3.0);
+  EXPECT_EQ(value_of(families, peers, {{"direction", "output"}, {"policy", "type"}}), 0.0);
 }
 
 TEST(Metrics, AShardThatIsNotServedYetDoesNotJudgeTheOthers) {
@@ -175,6 +186,7 @@ TEST(Metrics, FiguresOfASensorAndItsAxesAreThoseOfItsLastReport) {
   EXPECT_EQ(value_of(families, "gyrod_sensor_model_misfits_total", sensor), 6.0);
   EXPECT_EQ(value_of(families, "gyrod_sensor_at_rest", sensor), 1.0);
   EXPECT_EQ(value_of(families, "gyrod_sensor_silent", sensor), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_sensor_state", sensor), 2.0);
   EXPECT_EQ(value_of(families, "gyrod_sensor_silences_total", sensor), 4.0);
   EXPECT_EQ(value_of(families, "gyrod_axis_normalised_innovation", y), 3.0);
 }
@@ -243,7 +255,7 @@ TEST(Metrics, ASensorHasAsManySeriesAsTheManualSays) {
       if (label != one.labels.end() && label->second == "imu_front") ++series;
     }
   }
-  EXPECT_EQ(series, 66U);  // MonitorOptions::max_channel_series, docs/configuration.md
+  EXPECT_EQ(series, 67U);  // MonitorOptions::max_channel_series, docs/configuration.md
 }
 
 TEST(Metrics, SensorsBeyondTheCapAreCountedInstead) {

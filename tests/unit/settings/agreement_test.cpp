@@ -130,7 +130,10 @@ TEST(SettingsAgreement, EnumeratorsAreNamedInTheOrderOfTheSchema) {
 TEST(SettingsAgreement, EveryNameOfAnEnumerationIsTaken) {
   EXPECT_EQ(read_settings(R"({"bus": {"input": {"reliability": "best_effort"}}})", ".")
                 .settings.bus.input.reliability,
-            Reliability::kBestEffort);
+            InputReliability::kBestEffort);
+  EXPECT_EQ(read_settings(R"({"bus": {"ros2": {"input_liveliness": "manual_by_topic"}}})", ".")
+                .settings.bus.ros2.input_qos.liveliness,
+            Liveliness::kManualByTopic);
   EXPECT_EQ(read_settings(R"({"denoise": {"screening": "paper"}})", ".").settings.denoise.screening,
             Screening::kPaper);
   EXPECT_EQ(read_settings(R"({"denoise": {"boundary": "linear"}})", ".").settings.denoise.boundary,

@@ -69,5 +69,18 @@ TEST(NoiseSettings, TheStateIsAFileOfItsOwn) {
               ElementsAre("noise.state_file is \"cal.json\"; expected another file than noise.calibrations"));
 }
 
+TEST(RestartSettings, WhatWasPublishedIsKeptInAFileOfItsOwnNamedFromTheConfigurationOn) {
+  const testing::ScratchFolder folder;
+  EXPECT_THAT(messages(R"({"restart": {"published_file": "."}})", folder.path()),
+              ElementsAre("restart.published_file is \".\"; expected a file, not a folder"));
+  EXPECT_THAT(
+      messages(R"({"noise": {"state_file": "state"}, "restart": {"published_file": "state"}})",
+               folder.path()),
+      ElementsAre("restart.published_file is \"state\"; expected another file than noise.state_file"));
+  const Outcome outcome = read_settings(R"({"restart": {"published_file": "published"}})", folder.path());
+  EXPECT_EQ(outcome.settings.restart.published_file, folder.path("published"));
+  EXPECT_EQ(read_settings("{}", ".").settings.restart.published_file, "") << "none stays none";
+}
+
 }  // namespace
 }  // namespace gyrod::settings

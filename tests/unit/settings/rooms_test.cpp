@@ -21,6 +21,13 @@
 namespace gyrod::settings {
 namespace {
 
+void expect_same(const QosSettings& settings, const bus::QosProfile& room) {
+  EXPECT_EQ(settings.deadline_s, room.deadline_s);
+  EXPECT_EQ(settings.liveliness == Liveliness::kAutomatic, room.liveliness == bus::Liveliness::kAutomatic);
+  EXPECT_EQ(settings.liveliness_lease_s, room.lease_s);
+  EXPECT_EQ(settings.partitions, room.partitions);
+}
+
 TEST(SettingsRooms, DenoiserDefaultsAgree) {
   const core::DenoiserOptions room;
   const DenoiseSettings settings;
@@ -80,14 +87,23 @@ TEST(SettingsRooms, BusDefaultsAgree) {
   EXPECT_EQ(settings.topics.noise, room.topics.noise);
   EXPECT_EQ(settings.topics.realtime, room.topics.realtime);
   EXPECT_EQ(settings.topics.realtime_batch, room.topics.realtime_batch);
-  EXPECT_EQ(settings.input.reliability == Reliability::kReliable,
-            room.input_reliability == bus::Reliability::kReliable);
+  EXPECT_EQ(settings.input.reliability == InputReliability::kAuto,
+            room.input_reliability == bus::InputReliability::kAuto);
+  EXPECT_EQ(settings.ros2.input_reliability == InputReliability::kAuto,
+            room.ros2.input_reliability == bus::InputReliability::kAuto);
+  expect_same(settings.input.qos, room.input);
+  expect_same(settings.output.qos, room.output);
+  expect_same(settings.ros2.input_qos, room.ros2.input);
+  expect_same(settings.ros2.output_qos, room.ros2.output);
   EXPECT_EQ(settings.input.history_depth == 0, room.input_history == bus::History::kKeepAll);
   EXPECT_EQ(settings.input.max_messages, room.input_max_messages);
   EXPECT_EQ(settings.input.max_sensors, room.max_instances);
   EXPECT_EQ(settings.output.reliability == Reliability::kReliable,
             room.output_reliability == bus::Reliability::kReliable);
   EXPECT_EQ(settings.output.history_depth, room.output_depth);
+  EXPECT_EQ(settings.output.ownership_strength, room.ownership_strength);
+  EXPECT_EQ(settings.output.takeover_s, room.takeover_s);
+  EXPECT_EQ(settings.input.durability == Durability::kTransientLocal, room.input_past);
   EXPECT_EQ(settings.max_batch_samples, room.max_batch_samples);
 }
 

@@ -40,7 +40,7 @@ TEST_P(EngineInSilence, ReleasesWhatAWindowHoldsOnceNothingHasComeForLongEnough)
   ASSERT_EQ(output.size(), 100U);
   EXPECT_TRUE(has_flag(output[84], SampleFlag::kTail));
   EXPECT_EQ(engine_.snapshot().silent_channels, 1U);
-  EXPECT_TRUE(engine_.channels(1).front().silent);
+  EXPECT_EQ(engine_.channels(1).front().state, ChannelState::kSilent);
   EXPECT_TRUE(sink_.ended_after("imu").empty()) << "silent is not ended";
   at(50.0);
   EXPECT_EQ(engine_.snapshot().totals.silences, 1U) << "one silence, however long";
@@ -113,6 +113,53 @@ TEST_P(EngineInSilence, ForgetsASensorThatHasEnded) {
   at(101.0);
   EXPECT_EQ(engine_.snapshot().channels, 0U);
   EXPECT_THAT(sink_.ended_after("imu"), ::testing::ElementsAre(100U)) << "told once";
+}
+
+TEST_P(EngineInSilence, IsToldByTheBusAtOnceAndTheStateSaysWhy) {
+  engine_.push("imu", counting_samples(100));
+  engine_.fall_silent("imu", ChannelState::kDeadlineMissed);
+  engine_.fall_silent("imu", ChannelState::kDeadlineMissed);
+  engine_.fall_silent("unknown", ChannelState::kDeadlineMissed);
+  engine_.wait_idle();
+  EXPECT_EQ(sink_.samples("imu").size(), 100U);
+  EXPECT_EQ(engine_.channels(1).front().state, ChannelState::kDeadlineMissed);
+  EXPECT_EQ(engine_.snapshot().totals.silences, 1U);
+  at(10.0);
+  EXPECT_EQ(engine_.channels(1).front().state, ChannelState::kDeadlineMissed) << "the first reason stays";
+  engine_.push("imu", counting_samples(10, 105));
+  EXPECT_EQ(engine_.channels(1).front().state, ChannelState::kActive);
+  EXPECT_EQ(engine_.snapshot().totals.missing, 5U);
+  at(20.0);
+  at(200.0);
+  EXPECT_EQ(engine_.snapshot().channels, 0U) << "forgotten, as any silent one";
+}
+
+TEST_P(EngineInSilence, AnEndStaysOneWhateverTheReason) {
+  engine_.push("imu", counting_samples(100));
+  engine_.end_of_stream("imu");
+  engine_.wait_idle();
+  EXPECT_EQ(engine_.channels(1).front().state, ChannelState::kEnded);
+  engine_.fall_silent("imu", ChannelState::kLivelinessLost);
+  EXPECT_EQ(engine_.channels(1).front().state, ChannelState::kLivelinessLost);
+  EXPECT_THAT(sink_.ended_after("imu"), ::testing::ElementsAre(100U));
+  EXPECT_EQ(engine_.snapshot().totals.silences, 0U) << "its window was closed by the end";
+  engine_.push("imu", counting_samples(10));
+  EXPECT_EQ(engine_.channels(1).front().state, ChannelState::kActive);
+}
+
+TEST_P(EngineInSilence, ASensorThatRebootsMeanwhileBeginsAnewWithItsFirstSample) {
+  engine_.push("imu", counting_samples(300, 1000));
+  at(10.0);
+  std::vector<Sample> rebooted = counting_samples(100);  // numbers from 0, and a clock that is back in 1970
+  for (Sample& sample : rebooted) sample.stamp_ns = static_cast<std::int64_t>(sample.sequence) * 10'000'000;
+  EXPECT_EQ(engine_.push("imu", rebooted), 100U);
+  engine_.end_of_stream("imu");
+  const Counts counts = engine_.snapshot().totals;
+  EXPECT_EQ(counts.restarts, 1U);
+  EXPECT_EQ(counts.missing, 0U);
+  EXPECT_EQ(counts.rejected_total(), 0U);
+  EXPECT_EQ(sink_.samples("imu").size(), 400U);
+  expect_conserved(counts);
 }
 
 TEST(Engine, NeverForgetsWhereItIsNotAskedTo) {

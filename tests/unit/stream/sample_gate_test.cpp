@@ -51,6 +51,40 @@ TEST_F(SampleGateTest, TellsADuplicateFromALateSample) {
   expect_refused(sample_at(6), RejectReason::kOutOfOrder);
 }
 
+TEST_F(SampleGateTest, TakesWhatIsOlderByFarForARestartOnceOneIsExpectedAndNoLateSample) {
+  feed(200);
+  gate_.expect_restart();
+  EXPECT_EQ(gate_.judge(sample_at(202)).kind, Kind::kAccept);
+  expect_refused(sample_at(0), RejectReason::kOutOfOrder);  // no longer expected: a sample came as it should
+  gate_.expect_restart();
+  expect_refused(sample_at(201), RejectReason::kOutOfOrder);
+  expect_refused(sample_at(202), RejectReason::kDuplicate);
+  EXPECT_EQ(gate_.judge(sample_at(0)).kind, Kind::kRestart);
+  EXPECT_EQ(gate_.judge(sample_at(1)).kind, Kind::kAccept);
+}
+
+TEST(SampleGate, MissesNothingBeforeItsFirstSampleAlsoAtAConfiguredRate) {
+  SampleGate gate({.sample_rate_hz = 100.0, .max_rate_radps = 175.0, .max_bridged_samples = 16});
+  EXPECT_EQ(gate.judge(sample_at(300)).missing, 0U);
+}
+
+TEST_F(SampleGateTest, CountsWhatIsMissingBehindAnEndWhereNumbersAndStampsGoOn) {
+  feed(200);
+  gate_.reopen();
+  Verdict verdict = gate_.judge(sample_at(300));
+  EXPECT_EQ(verdict.kind, Kind::kAccept);
+  EXPECT_EQ(verdict.missing, 100U);
+  EXPECT_EQ(verdict.bridge, 0U) << "a new window begins";
+  gate_.reopen();
+  Sample elsewhere = sample_at(1000);
+  elsewhere.stamp_ns = sample_at(310).stamp_ns;  // 700 numbers in 10 periods: another numbering
+  verdict = gate_.judge(elsewhere);
+  EXPECT_EQ(verdict.kind, Kind::kAccept);
+  EXPECT_EQ(verdict.missing, 0U);
+  gate_.reopen();
+  EXPECT_EQ(gate_.judge(sample_at(0)).missing, 0U);
+}
+
 TEST_F(SampleGateTest, RefusesAStampThatGoesBackOrStands) {
   feed(5);
   Sample sample = sample_at(5);
@@ -226,6 +260,18 @@ TEST_F(SampleGateTest, TakesAClockThatIsSetForANewBeginning) {
   sample.sequence = 201;
   sample.stamp_ns = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(gate_.judge(sample).kind, Kind::kRestart);
+}
+
+TEST_F(SampleGateTest, TakesNoLossFromAClockThatIsSetAnHourAheadWhereNoNumberIsLeftOut) {
+  feed(100);
+  Sample sample = sample_at(100);
+  sample.stamp_ns += 3'600'000'000'000;
+  const Verdict verdict = gate_.judge(sample);
+  EXPECT_EQ(verdict.kind, Kind::kRestart);
+  EXPECT_EQ(verdict.missing, 0U);
+  Sample next = sample_at(101);
+  next.stamp_ns += 3'600'000'000'000;
+  EXPECT_EQ(gate_.judge(next).kind, Kind::kAccept);
 }
 
 TEST_F(SampleGateTest, RefusesARunThatIsSentTwiceHoweverLong) {

@@ -1,0 +1,42 @@
+/// What the two ends of a topic promise one another, besides history.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gyrod::bus {
+
+/// Whether DDS repairs losses.
+enum class Reliability {
+  kReliable,    ///< a lost message is sent again
+  kBestEffort,  ///< a lost message stays lost: lowest latency on a bad network
+};
+
+/// How a reader treats writers of both kinds.
+enum class InputReliability {
+  kAuto,        ///< losses of reliable writers are repaired; what others send is taken, too
+  kReliable,    ///< matches reliable writers only; losses are repaired
+  kBestEffort,  ///< matches every writer; losses show as gaps
+};
+
+/// How a writer shows that it lives.
+enum class Liveliness {
+  kAutomatic,      ///< its process lives
+  kManualByTopic,  ///< it writes
+};
+
+/// What a reader asks of writers, or a writer offers to readers. A reader matches those writers only that offer at least as much; the
+/// defaults ask for nothing.
+struct QosProfile {
+  /// Longest time between two messages of a sensor, s; 0: none. A reader notices a miss at once.
+  double deadline_s = 0.0;
+
+  Liveliness liveliness = Liveliness::kAutomatic;
+  /// Longest time without a sign of life, s; 0: none but that of the process itself, which DDS notices after its lease (10 s).
+  double lease_s = 0.0;
+
+  /// Names of parts of the domain: only ends that share one meet. None: the part without a name. A reader's may hold '*' and '?'.
+  std::vector<std::string> partitions;
+};
+
+}  // namespace gyrod::bus

@@ -1,0 +1,53 @@
+/// The writers of some types in a domain, as discovery tells. Internal to bus/: includes Cyclone's headers.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "bus/domain.hpp"
+#include "bus/entity.hpp"
+#include "bus/qos_profile.hpp"
+
+namespace gyrod::bus {
+
+/// Knows of each writer whether it is best effort, and tells which are new. A reader that takes from writers of one kind asks it by the
+/// handle that comes with each message. Holds what DDS itself holds of writers of those types, and the last that have gone. One thread.
+class WriterBook {
+ public:
+  /// @param types names of types on the wire; writers of others are left out @throws BusError
+  WriterBook(const Domain& domain, std::vector<std::string_view> types);
+
+  struct Writer {
+    std::string topic;
+    Reliability reliability;
+  };
+
+  /// Holds while there is news: for a waitset.
+  [[nodiscard]] dds_entity_t condition() const noexcept { return news_condition_.get(); }
+
+  /// The writers that have appeared since the last call.
+  [[nodiscard]] std::vector<Writer> take_news();
+
+  /// Discovery comes before a writer's messages, so that every handle of a message is known here. @return false also for a handle that is
+  /// of no writer of these types
+  [[nodiscard]] bool is_best_effort(dds_instance_handle_t writer);
+
+ private:
+  void look();
+
+  std::vector<std::string_view> types_;
+  Entity publications_;
+  Entity news_condition_;
+  std::unordered_map<dds_instance_handle_t, bool> best_effort_;
+  std::deque<dds_instance_handle_t> gone_;  ///< still in best_effort_: their messages may wait in a cache
+  std::vector<Writer> news_;
+};
+
+/// The reliability that a discovered writer or reader shows.
+[[nodiscard]] Reliability reliability_of(const dds_qos_t* qos) noexcept;
+
+}  // namespace gyrod::bus

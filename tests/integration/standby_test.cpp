@@ -1,0 +1,135 @@
+// Two daemons with the same output, as two processes, and what a subscriber sees when one of them goes.
+#include <csignal>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "rig.hpp"
+#include "support/arrivals.hpp"
+#include "support/eventually.hpp"
+
+namespace gyrod::testing {
+namespace {
+
+class Standby : public Rig {
+ protected:
+  std::unique_ptr<Process> start_one(const std::string& name, int strength) {
+    write_config({.window_samples = 512,
+                  .patch = R"({"bus": {"output": {"ownership_strength": )" + std::to_string(strength) +
+                           R"(, "takeover_s": 0.5}}})"},
+                 name);
+    auto daemon = start({"run", "--config", path(name)});
+    if (!daemon->wait_for_err("/metrics"))
+      throw std::runtime_error("the daemon did not start: " + daemon->err());
+    return daemon;
+  }
+  /// The first is the stronger one. Both are there before the sensor, so that their outputs are the same bits.
+  void start_two() {
+    first_ = start_one("first.json", 20);
+    second_ = start_one("second.json", 10);
+    write_config({}, "gyrod.json");
+    ASSERT_TRUE(eventually([&] {
+      return of(*first_, "gyrod_standby_others") == 1.0 && of(*second_, "gyrod_standby_others") == 1.0;
+    }));
+  }
+  [[nodiscard]] Arrivals arrivals() const {
+    bus::BusOptions options;
+    options.ownership_strength = 1;
+    return {bus::Domain(domain_id(), "loopback"), options, "gyro/denoised", "imu"};
+  }
+  std::unique_ptr<Process> start_sensor() {
+    return start_on_bus({"simulate", "--sensor", "imu", "--rate", "200", "--wait", "60"});
+  }
+  static double of(const Process& daemon, const std::string& series) {
+    return metric(daemon, series).value_or(-1.0);
+  }
+  bool more_arrive(const Arrivals& output, std::size_t samples) const {
+    const std::size_t before = output.count();
+    return eventually([&] { return output.count() >= before + samples; });
+  }
+  /// Both have the sensor, the first publishes it, the second holds.
+  void wait_for_duty(const Arrivals& output) {
+    ASSERT_TRUE(more_arrive(output, 200));
+    ASSERT_TRUE(eventually([&] {
+      return of(*second_, "gyrod_standby_samples_let_go_total") > 100.0 &&
+             of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
+    }));
+  }
+
+  std::unique_ptr<Process> first_;
+  std::unique_ptr<Process> second_;
+};
+
+TEST_F(Standby, GoesOnWithTheSampleThatWouldHaveComeNextAndWithTheSameBitsWhenTheOtherIsKilled) {
+  ASSERT_EQ(run({"simulate", "--rate", "200", "--samples", "1000", "-o", path("still.csv")}).exit_code, 0);
+  start_two();
+  const Arrivals output = arrivals();
+  ASSERT_TRUE(eventually([&] { return output.writers() == 2; }));
+  const auto sensor = start_on_bus({"replay", path("still.csv"), "--sensor", "imu", "--wait", "60"});
+  wait_for_duty(output);
+  first_->signal(SIGKILL);
+  // The last 16, the lag, leave at the sensor's end, for which its writer waits until the killed reader's lease is over.
+  ASSERT_TRUE(eventually([&] { return output.samples().back().sequence >= 983; }));
+  EXPECT_EQ(output.missing(), 0U) << output.jumps();
+  EXPECT_EQ(output.samples().front().sequence, 0U);
+  RecordProperty("longest_pause_ms", static_cast<int>(1000.0 * output.longest_pause_s()));
+  EXPECT_GE(output.longest_pause_s(), 0.25);
+  // On a machine that is so slow that the first looked dead before, there are more.
+  ASSERT_GE(of(*second_, "gyrod_standby_takeovers_total"), 1.0);
+  if (of(*second_, "gyrod_standby_takeovers_total") == 1.0) {
+    EXPECT_LE(output.duplicates(), 2U) << "sent by the first and not heard by the second before the end";
+  }
+
+  const Result offline =
+      run({"denoise", path("still.csv"), "-o", path("offline.csv"), "--config", path("first.json")});
+  ASSERT_EQ(offline.exit_code, 0) << offline.err;
+  const auto expected = columns_of(path("offline.csv"), {"gyro_x_radps"});
+  for (const auto& sample : output.samples())
+    ASSERT_EQ(sample.rate_radps[0], std::stod(expected.at(sample.sequence))) << sample.sequence;
+}
+
+TEST_F(Standby, GivesBackWithoutASeamWhenTheStrongerOneIsBack) {
+  start_two();
+  const Arrivals output = arrivals();
+  const auto sensor = start_sensor();
+  wait_for_duty(output);
+  first_->signal(SIGTERM);
+  EXPECT_EQ(first_->wait(), 0) << first_->err();
+  ASSERT_TRUE(eventually([&] { return of(*second_, "gyrod_standby_sensors") == 1.0; }));
+  ASSERT_TRUE(more_arrive(output, 100));
+  first_ = start_one("first.json", 20);
+  ASSERT_TRUE(eventually([&] {
+    return of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
+  })) << first_->err();
+  ASSERT_TRUE(more_arrive(output, 200));
+  EXPECT_EQ(output.missing(), 0U) << output.jumps();
+  RecordProperty("duplicates", static_cast<int>(output.duplicates()));
+  sensor->signal(SIGINT);
+  sensor->wait();
+  EXPECT_EQ(stop_daemon(*first_), 0);
+  EXPECT_EQ(stop_daemon(*second_), 0);
+}
+
+TEST_F(Standby, StandsInForOneThatIsStoppedForAWhileAndNothingIsMissing) {
+  start_two();
+  const Arrivals output = arrivals();
+  const auto sensor = start_sensor();
+  wait_for_duty(output);
+  first_->signal(SIGSTOP);
+  ASSERT_TRUE(eventually([&] { return of(*second_, "gyrod_standby_takeovers_total") >= 1.0; }));
+  ASSERT_TRUE(more_arrive(output, 200));
+  first_->signal(SIGCONT);
+  ASSERT_TRUE(eventually([&] {
+    return of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
+  }));
+  ASSERT_TRUE(more_arrive(output, 200));
+  EXPECT_EQ(output.missing(), 0U) << output.jumps();
+  RecordProperty("duplicates", static_cast<int>(output.duplicates()));
+  sensor->signal(SIGINT);
+  sensor->wait();
+  EXPECT_EQ(stop_daemon(*first_), 0);
+  EXPECT_EQ(stop_daemon(*second_), 0);
+}
+
+}  // namespace
+}  // namespace gyrod::testing

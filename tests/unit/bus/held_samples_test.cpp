@@ -1,0 +1,146 @@
+#include "bus/held_samples.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gyrod::bus {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr Others kAlone{.any = false, .stronger = false};
+constexpr Others kWeaker{.any = true, .stronger = true};
+constexpr Others kStrongest{.any = true, .stronger = false};
+
+/// Times in seconds from 0 on; sample n has stamp 10 n. Takes over after 1 s.
+class HeldSamplesTest : public ::testing::Test {
+ protected:
+  static stream::DenoisedSample sample(std::uint64_t n) {
+    return {.sequence = n, .stamp_ns = 10 * static_cast<std::int64_t>(n)};
+  }
+  void release(std::uint64_t first, std::uint64_t last, double now_s) {
+    for (std::uint64_t n = first; n <= last; ++n) {
+      const stream::DenoisedSample one = sample(n);
+      held_.release({&one, 1}, now_s);
+    }
+  }
+  void hear(std::uint64_t n, bool stronger) { held_.hear({n, 10 * static_cast<std::int64_t>(n)}, stronger); }
+  std::vector<std::uint64_t> take(double now_s, const Others& others) {
+    std::vector<std::uint64_t> taken;
+    held_.take(now_s, others, [&taken](const auto& one) { taken.push_back(one.sequence); });
+    return taken;
+  }
+
+  HeldSamples held_{1.0, 100};
+};
+
+TEST_F(HeldSamplesTest, ADaemonAlonePublishesAtOnce) {
+  release(1, 3, 0.0);
+  EXPECT_THAT(take(0.0, kAlone), ElementsAre(1, 2, 3));
+  EXPECT_EQ(held_.takeovers(), 0U);
+}
+
+TEST_F(HeldSamplesTest, ADaemonThatHasNotLookedForOthersYetHolds) {
+  Others unknown = kAlone;
+  unknown.looked = false;
+  release(1, 3, 0.0);
+  EXPECT_THAT(take(5.0, unknown), IsEmpty());
+  EXPECT_THAT(take(5.0, kAlone), ElementsAre(1, 2, 3));
+}
+
+TEST_F(HeldSamplesTest, TheStrongestPublishesAtOnceWhatNobodyHasPublished) {
+  release(1, 2, 0.0);
+  EXPECT_THAT(take(0.0, kStrongest), ElementsAre(1, 2));
+}
+
+TEST_F(HeldSamplesTest, TheWeakerLetsGoWhatItHearsAndHoldsTheRest) {
+  release(1, 5, 0.0);
+  hear(3, true);
+  EXPECT_THAT(take(0.9, kWeaker), IsEmpty());
+  EXPECT_EQ(held_.size(), 2U);
+  EXPECT_EQ(held_.let_go(), 3U);
+}
+
+TEST_F(HeldSamplesTest, TheWeakerGoesOnWithTheFirstSampleThatIsMissingAndThenWaitsNoMore) {
+  release(1, 5, 0.0);
+  hear(3, true);
+  EXPECT_THAT(take(1.0, kWeaker), ElementsAre(4, 5));
+  EXPECT_EQ(held_.takeovers(), 1U);
+  release(6, 6, 1.0);
+  EXPECT_THAT(take(1.0, kWeaker), ElementsAre(6));
+}
+
+TEST_F(HeldSamplesTest, TheWeakerWaitsAlsoWhereTheOtherHasLeftUntilReadersKnowIt) {
+  release(1, 5, 0.0);
+  hear(3, true);
+  EXPECT_THAT(take(0.9, kAlone), IsEmpty());
+  EXPECT_THAT(take(1.0, kAlone), ElementsAre(4, 5));
+}
+
+TEST_F(HeldSamplesTest, TheStrongestComesBackWhereTheOtherIsAndTheOtherStops) {
+  Others unknown = kStrongest;
+  unknown.looked = false;
+  release(7, 9, 0.0);
+  hear(5, false);
+  EXPECT_THAT(take(0.0, kStrongest), IsEmpty()) << "6 is still to come from the other";
+  hear(7, false);
+  EXPECT_THAT(take(0.0, unknown), IsEmpty()) << "more may have been published than was heard yet";
+  EXPECT_THAT(take(0.0, kStrongest), ElementsAre(8, 9)) << "continues what was heard";
+
+  HeldSamples other{1.0, 100};
+  const auto ignore = [](const auto&) {};
+  const stream::DenoisedSample eight = sample(8);
+  other.release({&eight, 1}, 0.0);
+  other.take(1.0, kWeaker, ignore);
+  ASSERT_TRUE(other.active());
+  other.hear({9, 90}, true);
+  EXPECT_FALSE(other.active());
+}
+
+TEST_F(HeldSamplesTest, TheStrongestDoesNotMindTheWeaker) {
+  release(1, 1, 0.0);
+  EXPECT_THAT(take(0.0, kStrongest), ElementsAre(1));
+  hear(3, false);
+  release(2, 4, 0.1);
+  EXPECT_THAT(take(0.1, kStrongest), ElementsAre(2, 3, 4)) << "readers have dropped what the weaker one sent";
+}
+
+TEST_F(HeldSamplesTest, WhoWasStoppedPublishesNothingTwice) {
+  release(1, 1, 0.0);
+  EXPECT_THAT(take(0.0, kStrongest), ElementsAre(1));
+  held_.doubt();
+  release(2, 9, 5.0);
+  hear(6, false);  // meanwhile the other has taken over
+  EXPECT_THAT(take(5.0, kStrongest), ElementsAre(7, 8, 9));
+}
+
+TEST_F(HeldSamplesTest, TheStrongestWaitsLessThanAnyOtherWouldWhereItsInputHasAGap) {
+  hear(5, false);
+  release(8, 8, 0.0);
+  EXPECT_THAT(take(0.2, kStrongest), IsEmpty());
+  EXPECT_THAT(take(0.25, kStrongest), ElementsAre(8));
+}
+
+TEST_F(HeldSamplesTest, NoMoreIsHeldThanThereIsRoomForAndNothingIsLost) {
+  release(1, 100, 0.0);
+  EXPECT_EQ(take(0.0, kWeaker).size(), 100U);
+}
+
+TEST_F(HeldSamplesTest, ASensorThatHasEndedElsewhereAndIsSentAgainIsPublishedAgain) {
+  hear(3, true);
+  held_.hear_end();
+  release(1, 3, 0.0);
+  EXPECT_THAT(take(1.0, kWeaker), ElementsAre(1, 2, 3));
+}
+
+TEST_F(HeldSamplesTest, ASensorThatBeginsAnewIsNotTakenForWhatWasPublished) {
+  hear(1000, true);
+  const stream::DenoisedSample anew{.sequence = 0, .stamp_ns = 20'000};
+  held_.release({&anew, 1}, 0.0);
+  EXPECT_THAT(take(0.5, kWeaker), IsEmpty());
+  EXPECT_EQ(held_.let_go(), 0U);
+}
+
+}  // namespace
+}  // namespace gyrod::bus

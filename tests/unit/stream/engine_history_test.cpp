@@ -1,0 +1,95 @@
+// A process that serves a sensor which was served before: what was published fills the window and does not leave again.
+#include <atomic>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine_support.hpp"
+#include "stream/engine.hpp"
+
+namespace gyrod::stream {
+namespace {
+
+constexpr std::uint64_t kHistory = 300;  // two full windows and a part
+constexpr std::uint64_t kAll = 1000;
+
+EngineOptions with_history(EngineOptions options, PublishedMark mark) {
+  options.published_before = [mark](std::string_view) { return mark; };
+  return options;
+}
+
+PublishedMark mark_at(std::uint64_t sequence) { return {sequence, sample_at(sequence).stamp_ns}; }
+
+std::vector<DenoisedSample> from(const std::vector<DenoisedSample>& samples, std::uint64_t sequence) {
+  const auto first = std::ranges::find(samples, sequence, &DenoisedSample::sequence);
+  return {first, samples.end()};
+}
+
+/// 0: the window method, else the model method. Both with two workers.
+class EngineWithHistory : public ::testing::TestWithParam<int> {
+ protected:
+  [[nodiscard]] static MethodFactory method() {
+    return GetParam() == 0 ? MethodFactory{window_marker()} : MethodFactory{testing::last_sample_method()};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Methods, EngineWithHistory, ::testing::Values(0, 1));
+
+// The expected bits are those of a process that was never interrupted.
+TEST_P(EngineWithHistory, PublishesTheRestWithTheBitsOfOneThatWasNeverInterrupted) {
+  RecordingSink whole;
+  RecordingSink restarted;
+  Engine one(small_options(2), method(), whole);
+  Engine other(with_history(small_options(2), mark_at(kHistory - 1)), method(), restarted);
+  one.push("imu", noisy_samples(kAll));
+  EXPECT_EQ(other.push("imu", noisy_samples(kAll)), kAll - kHistory);
+  one.stop(std::chrono::seconds{60});
+  other.stop(std::chrono::seconds{60});
+  EXPECT_TRUE(same_bits(restarted.samples("imu"), from(whole.samples("imu"), kHistory)));
+  EXPECT_EQ(restarted.samples("imu").size(), kAll - kHistory);
+  EXPECT_FALSE(has_flag(restarted.samples("imu").front(), SampleFlag::kWarmingUp));
+  if (GetParam() == 1) {
+    EXPECT_TRUE(same_bits(restarted.realtime("imu"), from(whole.realtime("imu"), kHistory)));
+  }
+  const Counts counts = other.snapshot().totals;
+  EXPECT_EQ(counts.rejected[static_cast<std::size_t>(RejectReason::kHistory)], kHistory);
+  EXPECT_EQ(counts.published, kAll - kHistory);
+  expect_conserved(counts);
+}
+
+TEST_P(EngineWithHistory, TakesASensorThatHasEndedOrBegunAnewForANewOne) {
+  RecordingSink sink;
+  Engine engine(with_history(small_options(0), mark_at(kHistory - 1)), method(), sink);
+  engine.push("ended", counting_samples(100));
+  engine.end_of_stream("ended");
+  EXPECT_EQ(engine.push("ended", counting_samples(100)), 100U);
+
+  engine.push("reset", counting_samples(200));
+  // The gate believes the eighth sample of another numbering; the seven before it are refused as out of order.
+  EXPECT_EQ(engine.push("reset", counting_samples(100)), 100U - 7U);
+  expect_conserved(engine.snapshot().totals);
+}
+
+TEST_P(EngineWithHistory, TakesNothingForHistoryThatComesLongAfterTheSensorsFirstSamples) {
+  std::atomic<double> now_s{0.0};
+  RecordingSink sink;
+  Engine engine(with_history(small_options(0), mark_at(kHistory - 1)), method(), sink,
+                [&now_s] { return now_s.load(); });
+  EXPECT_EQ(engine.push("imu", counting_samples(10)), 0U);
+  now_s = 9.9;
+  EXPECT_EQ(engine.push("imu", counting_samples(10, 10)), 0U);
+  now_s = 10.1;
+  EXPECT_EQ(engine.push("imu", counting_samples(10, 20)), 10U);
+}
+
+TEST(EngineHistory, OfASensorThatDoesNotCountIsToldByItsStamps) {
+  RecordingSink sink;
+  std::vector<Sample> samples = counting_samples(100);
+  for (Sample& sample : samples) sample.sequence = 0;
+  Engine engine(with_history(small_options(0), {0, samples[59].stamp_ns}), window_marker(), sink);
+  EXPECT_EQ(engine.push("imu", samples), 40U);
+  engine.stop(std::chrono::seconds{60});
+  EXPECT_EQ(sink.samples("imu").front().stamp_ns, samples[60].stamp_ns);
+}
+
+}  // namespace
+}  // namespace gyrod::stream
