@@ -12,19 +12,21 @@ void FleetLink::on_rule(const fleet::ServingRule& rule) noexcept {
 void FleetLink::on_standing(const fleet::Standing& now) noexcept {
   const fleet::Standing before = last_;  // nothing is told before this daemon is one of them
   if (now.active) last_ = now;
-  if (now.disputes > before.disputes)
+  if (now.disputes > before.disputes) {
     spdlog::warn(
         "shard {}: a daemon turned up that may have served the same sensors: their samples may have come "
         "twice",
         shard_);
+  }
   if (!now.active) return;
   if (now.peers != before.peers || (!before.active && shard_ != "1/1"))
     spdlog::info("shard {}: served here; {} other daemons write to the same topic", shard_, now.peers);
-  if (now.twins > before.twins)
+  if (now.twins > before.twins) {
     spdlog::warn(
         "shard {}: served by {} other daemons as well: readers get its samples from each of them, unless "
         "they choose by ownership",
         shard_, now.twins);
+  }
   if (now.overlapping > before.overlapping)
     spdlog::info("shard {}: daemons of another count overlap ({}); who has the largest count serves", shard_,
                  now.overlapping);

@@ -13,7 +13,7 @@ class FleetLink final : public bus::FleetHandler {
  public:
   explicit FleetLink(EngineInlet& inlet) : inlet_(inlet) {}
   void on_rule(const fleet::ServingRule& rule) noexcept override;
-  void on_standing(const fleet::Standing& standing) noexcept override;
+  void on_standing(const fleet::Standing& now) noexcept override;
 
  private:
   EngineInlet& inlet_;
