@@ -102,10 +102,11 @@ stream::EngineOptions live_engine_options(const settings::Settings& settings, No
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   options.workers = settings.workers > 0 ? settings.workers : cores;
   noise.attach_to(options);
-  if (settings.bus.input.durability == settings::Durability::kTransientLocal)
+  if (settings.bus.input.durability == settings::Durability::kTransientLocal) {
     options.published_before = [&published](std::string_view sensor) {
       return published.take_before(sensor);
     };
+  }
   return options;
 }
 

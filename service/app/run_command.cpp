@@ -102,10 +102,11 @@ void announce_restart(const settings::Settings& settings, const Service& service
     spdlog::info("reads what sensors keep; {} sensors were published before this start",
                  service.published().remembered());
   }
-  if (reads_past && file.empty())
+  if (reads_past && file.empty()) {
     spdlog::warn(
         "bus.input.durability is \"transient_local\" and restart.published_file is empty: what sensors "
         "keep is published again after a restart");
+  }
   const auto& output = settings.bus.output;
   if (output.ownership_strength == 0) return;
   spdlog::info("one of several daemons: strength {}, takes over after {} s", output.ownership_strength,

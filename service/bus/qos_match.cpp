@@ -84,15 +84,17 @@ Life life_of(const dds_qos_t* qos) {
           {-lease, seconds(lease)}};
 }
 
+const char* name_of_representation(dds_data_representation_id_t id) noexcept {
+  if (id == DDS_DATA_REPRESENTATION_XCDR2) return "XCDR2";
+  return id == DDS_DATA_REPRESENTATION_XCDR1 ? "XCDR1" : "another";
+}
+
 Words representations(const dds_qos_t* qos) {
   std::uint32_t count = 0;
   dds_data_representation_id_t* ids = nullptr;
   Words names;
   if (dds_qget_data_representation(qos, &count, &ids)) {
-    for (std::uint32_t i = 0; i < count; ++i)
-      names.push_back(ids[i] == DDS_DATA_REPRESENTATION_XCDR2   ? "XCDR2"
-                      : ids[i] == DDS_DATA_REPRESENTATION_XCDR1 ? "XCDR1"
-                                                                : "another");
+    for (std::uint32_t i = 0; i < count; ++i) names.push_back(name_of_representation(ids[i]));
     dds_free(ids);
   }
   if (names.empty()) names.emplace_back("XCDR1");
