@@ -49,7 +49,7 @@ std::vector<std::string> partitions_of(const dds_qos_t* qos) {
       partitions.emplace_back(names[k]);
       dds_free(names[k]);
     }
-    dds_free(names);
+    dds_free(static_cast<void*>(names));
   }
   if (partitions.empty()) partitions.emplace_back();
   std::ranges::sort(partitions);

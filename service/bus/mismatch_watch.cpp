@@ -68,15 +68,15 @@ struct Ends {
 
 class MismatchWatch::Impl {
  public:
-  Impl(const Domain& domain, const BusOptions& options)
-      : domain_(domain),
+  Impl(Domain domain, const BusOptions& options)
+      : domain_(std::move(domain)),
         options_(options),
         publications_(create_reader(DDS_BUILTIN_TOPIC_DCPSPUBLICATION)),
         subscriptions_(create_reader(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION)),
         published_(dds_create_readcondition(publications_.get(), DDS_ANY_STATE), kAttempt),
         subscribed_(dds_create_readcondition(subscriptions_.get(), DDS_ANY_STATE), kAttempt),
-        waitset_(dds_create_waitset(domain.participant()), kAttempt) {
-    check(dds_get_guid(domain.participant(), &self_), kAttempt);
+        waitset_(dds_create_waitset(domain_.participant()), kAttempt) {
+    check(dds_get_guid(domain_.participant(), &self_), kAttempt);
     for (const dds_entity_t condition : {published_.get(), subscribed_.get(), waitset_.get()})
       check(dds_waitset_attach(waitset_.get(), condition, 0), kAttempt);
     thread_ = std::thread([this] { work(); });

@@ -94,7 +94,7 @@ Words representations(const dds_qos_t* qos) {
   dds_data_representation_id_t* ids = nullptr;
   Words names;
   if (dds_qget_data_representation(qos, &count, &ids)) {
-    for (std::uint32_t i = 0; i < count; ++i) names.push_back(name_of_representation(ids[i]));
+    for (std::uint32_t i = 0; i < count; ++i) names.emplace_back(name_of_representation(ids[i]));
     dds_free(ids);
   }
   if (names.empty()) names.emplace_back("XCDR1");
@@ -185,7 +185,7 @@ std::vector<std::string> partitions_of(const dds_qos_t* qos) {
     partitions.emplace_back(names[i]);
     dds_free(names[i]);
   }
-  dds_free(names);
+  dds_free(static_cast<void*>(names));
   return partitions;
 }
 

@@ -16,7 +16,9 @@ using Writer = std::variant<Singles, Batches>;
 
 /// Two names with wildcards never meet.
 void check_partitions(const std::vector<std::string>& names) {
-  const auto is_pattern = [](const std::string& name) { return name.find_first_of("*?") != name.npos; };
+  const auto is_pattern = [](const std::string& name) {
+    return name.find_first_of("*?") != std::string::npos;
+  };
   const auto found = std::ranges::find_if(names, is_pattern);
   if (found == names.end()) return;
   throw BusError("partition '" + *found + "': expected a name without '*' and '?' to write to");

@@ -1,7 +1,6 @@
 #include "fleet/shard.hpp"
 
 #include <cassert>
-#include <charconv>
 #include <utility>
 
 namespace gyrod::fleet {
@@ -22,9 +21,11 @@ std::uint64_t mix(std::uint64_t z) noexcept {
 /// Digits only, and none too many.
 std::optional<std::uint32_t> parse_count(std::string_view text) noexcept {
   std::uint32_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  if (text.empty() || text.front() == '0' || error != std::errc{} || stopped != end) return std::nullopt;
+  for (const char c : text) {
+    if (c < '0' || c > '9' || number > kMaxShards) return std::nullopt;
+    number = 10 * number + static_cast<std::uint32_t>(c - '0');
+  }
+  if (text.empty() || text.front() == '0') return std::nullopt;
   return number <= kMaxShards ? std::optional(number) : std::nullopt;
 }
 
