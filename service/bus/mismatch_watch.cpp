@@ -68,9 +68,9 @@ struct Ends {
 
 class MismatchWatch::Impl {
  public:
-  Impl(Domain domain, const BusOptions& options)
+  Impl(Domain domain, BusOptions options)
       : domain_(std::move(domain)),
-        options_(options),
+        options_(std::move(options)),
         publications_(create_reader(DDS_BUILTIN_TOPIC_DCPSPUBLICATION)),
         subscriptions_(create_reader(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION)),
         published_(dds_create_readcondition(publications_.get(), DDS_ANY_STATE), kAttempt),
