@@ -73,11 +73,15 @@ void HttpServer::respond(const httplib::Request& request, httplib::Response& res
   }
   Answer answer;
   try {
-    answer = answer_(request.path);
+    answer = answer_({.path = request.path,
+                      .raw_path = request.target.substr(0, request.target.find('?')),
+                      .query = {request.params.begin(), request.params.end()},
+                      .last_event_id = request.get_header_value("Last-Event-ID")});
   } catch (const std::exception& error) {
-    answer = {.status = 500, .body = std::string("internal error: ") + error.what() + "\n"};
+    answer = Answer{.status = 500, .body = std::string("internal error: ") + error.what() + "\n"};
   }
   response.status = answer.status;
+  for (const auto& [name, value] : answer.headers) response.set_header(name, value);
   response.set_content(answer.body, answer.content_type);
 }
 

@@ -2,26 +2,16 @@
 /// limits are ours.
 #pragma once
 
-#include <functional>
-#include <string>
 #include <thread>
 #include <vector>
 
 #include <httplib.h>
 
+#include "monitor/answer.hpp"
 #include "monitor/socket.hpp"
 #include "monitor/stop_signal.hpp"
 
 namespace gyrod::monitor {
-
-struct Answer {
-  int status = 200;
-  std::string content_type = "text/plain; charset=utf-8";
-  std::string body;
-};
-
-/// Answers a path; called by several threads at once. What it throws becomes status 500.
-using Answerer = std::function<Answer(const std::string& path)>;
 
 /// Every thread accepts and serves one client at a time, one request a connection. While all are busy,
 /// clients wait in the listening socket's queue: nothing else grows. cpp-httplib's own accept loop is not
