@@ -23,11 +23,11 @@ std::string required_variable(const char* name) {
 }
 
 /// One of the domains 80..219, beyond those of other tests. Programs of one run, side by side, differ in their
-/// slot; two runs on one machine most likely in the block of twenty-five.
+/// slot; two runs on one machine most likely in the block of thirty-five.
 std::uint32_t own_domain() {
   constexpr std::uint32_t kFirst = 80;
-  constexpr std::uint32_t kSlots = 25;
-  constexpr std::uint32_t kBlocks = 5;
+  constexpr std::uint32_t kSlots = 35;
+  constexpr std::uint32_t kBlocks = 4;
   const auto slot = static_cast<std::uint32_t>(std::stoul(required_variable("GYROD_TEST_SLOT")));
   return kFirst + static_cast<std::uint32_t>(getpid()) % kBlocks * kSlots + slot % kSlots;
 }
