@@ -38,10 +38,6 @@ class ClockStep : public Rig {
     unsetenv("LD_PRELOAD");
     return daemon;
   }
-  static bool more_arrive(const Arrivals& output, std::size_t samples) {
-    const std::size_t before = output.count();
-    return eventually([&] { return output.count() >= before + samples; });
-  }
   [[nodiscard]] const bus::Domain& domain() const { return domain_; }
 
  private:
@@ -57,10 +53,10 @@ TEST_F(ClockStep, ADaemonWhoseClockIsSetByAnHourLosesNothing) {
   EXPECT_TRUE(eventually([&] { return std::chrono::steady_clock::now() - set > kLongerThanALease; }));
   EXPECT_EQ(output.writers(), 1U);
   const auto sensor = start_on_bus({"simulate", "--sensor", "imu", "--rate", "100", "--wait", "60"});
-  EXPECT_TRUE(more_arrive(output, 200));
+  EXPECT_TRUE(output.more_arrive(200));
   for (const std::int64_t offset_ns : {std::int64_t{0}, kHourNs, std::int64_t{0}}) {
     set_clock(offset_ns);
-    EXPECT_TRUE(more_arrive(output, 300)) << offset_ns;
+    EXPECT_TRUE(output.more_arrive(300)) << offset_ns;
   }
   EXPECT_EQ(output.missing(), 0U);
   EXPECT_EQ(output.duplicates(), 0U);

@@ -34,15 +34,8 @@ class Faults : public Rig {
                                         const std::string& batch = "1") {
     return start_on_bus({"simulate", "--sensor", sensor, "--rate", rate, "--batch", batch, "--wait", "60"});
   }
-  static double of(const Process& daemon, const std::string& series) {
-    return metric(daemon, series).value_or(-1.0);
-  }
   static double rejected(const Process& daemon, const std::string& reason) {
     return of(daemon, "gyrod_samples_rejected_total{reason=\"" + reason + "\"}");
-  }
-  static bool more_arrive(const Arrivals& output, std::size_t samples) {
-    const std::size_t before = output.count();
-    return eventually([&] { return output.count() >= before + samples; });
   }
   static void send(bus::RawWriter& writer, const std::string& sensor,
                    std::span<const stream::Sample> samples) {
@@ -74,13 +67,13 @@ TEST_F(Faults, ADaemonThatIsStoppedForAWhileGoesOnAndLosesNothing) {
   const auto daemon = start_daemon({.silent_after_s = 1.0});
   const Arrivals output = arrivals("imu");
   const auto sensor = start_sensor("imu", "100");
-  ASSERT_TRUE(more_arrive(output, 100));
+  ASSERT_TRUE(output.more_arrive(100));
   daemon->signal(SIGSTOP);
   const auto stopped = std::chrono::steady_clock::now();
   ASSERT_TRUE(
       eventually([&] { return std::chrono::steady_clock::now() - stopped > std::chrono::seconds{5}; }));
   daemon->signal(SIGCONT);
-  ASSERT_TRUE(more_arrive(output, 700));
+  ASSERT_TRUE(output.more_arrive(700));
   EXPECT_EQ(output.missing(), 0U);
   EXPECT_EQ(output.duplicates(), 0U);
   EXPECT_EQ(of(*daemon, "gyrod_silences_total"), 0.0);
@@ -96,9 +89,9 @@ TEST_F(Faults, ASubscriberThatHangsHoldsNobodyUp) {
   const Arrivals output = arrivals("imu");
   const auto stuck = start_recorder("stuck.csv", {"--until-end"});
   const auto sensor = start_sensor("imu", "2000", "20");
-  ASSERT_TRUE(more_arrive(output, 1000));
+  ASSERT_TRUE(output.more_arrive(1000));
   stuck->signal(SIGSTOP);
-  ASSERT_TRUE(more_arrive(output, 5000));
+  ASSERT_TRUE(output.more_arrive(5000));
   EXPECT_EQ(output.missing(), 0U);
   EXPECT_LT(of(*daemon, "gyrod_samples_in_flight"), 2000.0);
   stuck->signal(SIGCONT);
@@ -115,13 +108,13 @@ TEST_F(Faults, ASensorThatSendsAHundredTimesItsRateCostsTheOthersNothing) {
   const auto daemon = start_daemon();
   const Arrivals output = arrivals("imu");
   const auto sensor = start_sensor("imu", "100");
-  ASSERT_TRUE(more_arrive(output, 100));
+  ASSERT_TRUE(output.more_arrive(100));
   const auto mad = start_sensor("mad", "10000", "10");
   ASSERT_TRUE(eventually([&] { return of(*daemon, "gyrod_samples_received_total") > 20'000.0; }));
-  ASSERT_TRUE(more_arrive(output, 100));
+  ASSERT_TRUE(output.more_arrive(100));
   mad->signal(SIGINT);
   EXPECT_EQ(mad->wait(), 0) << mad->err();
-  ASSERT_TRUE(more_arrive(output, 100));
+  ASSERT_TRUE(output.more_arrive(100));
   EXPECT_EQ(output.missing(), 0U);
   EXPECT_EQ(of(*daemon, "gyrod_sensor_samples_missing_total{sensor=\"imu\"}"), 0.0);
   expect_balanced(*daemon);
@@ -212,7 +205,7 @@ TEST_F(Faults, PayloadsThatAreNotWhatTheirTypeNameSaysHarmNobody) {
   const auto daemon = start_daemon();
   const Arrivals output = arrivals("imu");
   const auto sensor = start_sensor("imu", "100");
-  ASSERT_TRUE(more_arrive(output, 50));
+  ASSERT_TRUE(output.more_arrive(50));
 
   // Too short: where rates are expected, nothing is.
   const ForeignWriter batch_as_sample(domain().participant(), gyrod_GyroBatch_desc, "gyrod::GyroSample",
@@ -239,7 +232,7 @@ TEST_F(Faults, PayloadsThatAreNotWhatTheirTypeNameSaysHarmNobody) {
   EXPECT_TRUE(eventually([&] { return of(*daemon, "gyrod_bus_malformed_messages_total") == 50.0 + 80.0; }))
       << of(*daemon, "gyrod_bus_malformed_messages_total") << daemon->err();
   EXPECT_THAT(daemon->err(), HasSubstr("deserialization"));
-  ASSERT_TRUE(more_arrive(output, 200));
+  ASSERT_TRUE(output.more_arrive(200));
   EXPECT_EQ(output.missing(), 0U);
   EXPECT_EQ(of(*daemon, "gyrod_sensors"), 1.0) << "no sensor was made of it";
   expect_balanced(*daemon);

@@ -30,9 +30,6 @@ class Overload : public Rig {
   [[nodiscard]] Arrivals arrivals(const std::string& sensor) const {
     return {domain_, bus::BusOptions{}, "gyro/denoised", sensor};
   }
-  static double of(const Process& daemon, const std::string& series) {
-    return metric(daemon, series).value_or(-1.0);
-  }
   static std::size_t flagged(const std::vector<stream::DenoisedSample>& samples, unsigned flag) {
     return static_cast<std::size_t>(
         std::ranges::count_if(samples, [flag](const auto& sample) { return (sample.flags & flag) != 0; }));

@@ -66,6 +66,10 @@ class Rig : public ::testing::Test {
   /// One metric of the daemon, e.g. `gyrod_samples_rejected_total{reason="duplicate"}`; nothing if it is not
   /// there.
   [[nodiscard]] static std::optional<double> metric(const Process& daemon, const std::string& series);
+  /// The same, -1 if it is not there.
+  [[nodiscard]] static double of(const Process& daemon, const std::string& series) {
+    return metric(daemon, series).value_or(-1.0);
+  }
   /// Body of a GET on the daemon's port; empty if that fails.
   [[nodiscard]] static std::string get(const Process& daemon, const std::string& target);
   /// Its HTTP port, from its log.

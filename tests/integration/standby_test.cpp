@@ -40,20 +40,23 @@ class Standby : public Rig {
   std::unique_ptr<Process> start_sensor() {
     return start_on_bus({"simulate", "--sensor", "imu", "--rate", "200", "--wait", "60"});
   }
-  static double of(const Process& daemon, const std::string& series) {
-    return metric(daemon, series).value_or(-1.0);
-  }
-  bool more_arrive(const Arrivals& output, std::size_t samples) const {
-    const std::size_t before = output.count();
-    return eventually([&] { return output.count() >= before + samples; });
-  }
   /// Both have the sensor, the first publishes it, the second holds.
   void wait_for_duty(const Arrivals& output) {
-    ASSERT_TRUE(more_arrive(output, 200));
+    ASSERT_TRUE(output.more_arrive(200));
     ASSERT_TRUE(eventually([&] {
       return of(*second_, "gyrod_standby_samples_let_go_total") > 100.0 &&
              of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
     }));
+  }
+  /// Some more samples, none missing, and an orderly end of all three.
+  void end_without_loss(const Arrivals& output, Process& sensor) {
+    ASSERT_TRUE(output.more_arrive(200));
+    EXPECT_EQ(output.missing(), 0U) << output.jumps();
+    RecordProperty("duplicates", static_cast<int>(output.duplicates()));
+    sensor.signal(SIGINT);
+    sensor.wait();
+    EXPECT_EQ(stop_daemon(*first_), 0);
+    EXPECT_EQ(stop_daemon(*second_), 0);
   }
 
   std::unique_ptr<Process> first_;
@@ -96,18 +99,12 @@ TEST_F(Standby, GivesBackWithoutASeamWhenTheStrongerOneIsBack) {
   first_->signal(SIGTERM);
   EXPECT_EQ(first_->wait(), 0) << first_->err();
   ASSERT_TRUE(eventually([&] { return of(*second_, "gyrod_standby_sensors") == 1.0; }));
-  ASSERT_TRUE(more_arrive(output, 100));
+  ASSERT_TRUE(output.more_arrive(100));
   first_ = start_one("first.json", 20);
   ASSERT_TRUE(eventually([&] {
     return of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
   })) << first_->err();
-  ASSERT_TRUE(more_arrive(output, 200));
-  EXPECT_EQ(output.missing(), 0U) << output.jumps();
-  RecordProperty("duplicates", static_cast<int>(output.duplicates()));
-  sensor->signal(SIGINT);
-  sensor->wait();
-  EXPECT_EQ(stop_daemon(*first_), 0);
-  EXPECT_EQ(stop_daemon(*second_), 0);
+  end_without_loss(output, *sensor);
 }
 
 TEST_F(Standby, StandsInForOneThatIsStoppedForAWhileAndNothingIsMissing) {
@@ -117,18 +114,12 @@ TEST_F(Standby, StandsInForOneThatIsStoppedForAWhileAndNothingIsMissing) {
   wait_for_duty(output);
   first_->signal(SIGSTOP);
   ASSERT_TRUE(eventually([&] { return of(*second_, "gyrod_standby_takeovers_total") >= 1.0; }));
-  ASSERT_TRUE(more_arrive(output, 200));
+  ASSERT_TRUE(output.more_arrive(200));
   first_->signal(SIGCONT);
   ASSERT_TRUE(eventually([&] {
     return of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
   }));
-  ASSERT_TRUE(more_arrive(output, 200));
-  EXPECT_EQ(output.missing(), 0U) << output.jumps();
-  RecordProperty("duplicates", static_cast<int>(output.duplicates()));
-  sensor->signal(SIGINT);
-  sensor->wait();
-  EXPECT_EQ(stop_daemon(*first_), 0);
-  EXPECT_EQ(stop_daemon(*second_), 0);
+  end_without_loss(output, *sensor);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "bus/domain.hpp"
 #include "bus/recorder.hpp"
 #include "stream/sample.hpp"
+#include "support/eventually.hpp"
 
 namespace gyrod::testing {
 
@@ -44,6 +45,11 @@ class Arrivals final : private bus::RecordHandler {
   [[nodiscard]] std::vector<stream::DenoisedSample> samples() const {
     const std::lock_guard lock(mutex_);
     return samples_;
+  }
+  /// @return false if so many more do not come in time
+  [[nodiscard]] bool more_arrive(std::size_t samples) const {
+    const std::size_t before = count();
+    return eventually([&] { return count() >= before + samples; });
   }
   /// Sequence numbers between the first and the last that never came.
   [[nodiscard]] std::uint64_t missing() const {
