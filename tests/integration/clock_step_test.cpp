@@ -24,11 +24,11 @@ constexpr std::chrono::seconds kLongerThanALease{12};
 
 class ClockStep : public Rig {
  protected:
-  ClockStep() { set_clock(0); }
+  ClockStep() { write_file("clock", std::string(sizeof(std::int64_t), '\0')); }
 
-  /// Of the programs that were started with it.
+  /// Of the programs that were started with it. They have the file mapped: it keeps its length.
   void set_clock(std::int64_t offset_ns) const {
-    std::fstream file(path("clock"), offset_ns == 0 ? std::ios::out : std::ios::in | std::ios::out);
+    std::fstream file(path("clock"), std::ios::in | std::ios::out | std::ios::binary);
     file.write(reinterpret_cast<const char*>(&offset_ns), sizeof offset_ns);
   }
   std::unique_ptr<Process> start_daemon_with_clock() {
