@@ -1,6 +1,7 @@
 #include "app/options.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <thread>
 
 #include "app/version.hpp"
@@ -31,6 +32,23 @@ bus::QosProfile profile(const settings::QosSettings& settings) {
   const bool automatic = settings.liveliness == settings::Liveliness::kAutomatic;
   return {.deadline_s = settings.deadline_s,
           .liveliness = automatic ? bus::Liveliness::kAutomatic : bus::Liveliness::kManualByTopic,
+          .lease_s = settings.liveliness_lease_s,
+          .partitions = settings.partitions};
+}
+
+std::optional<bus::Liveliness> liveliness(std::optional<settings::Liveliness> kind) {
+  if (!kind) return {};
+  return *kind == settings::Liveliness::kAutomatic ? bus::Liveliness::kAutomatic
+                                                   : bus::Liveliness::kManualByTopic;
+}
+
+bus::TopicQos topic_qos(const settings::TopicQosSettings& settings) {
+  return {.topic = settings.topic,
+          .reliability =
+              settings.reliability ? std::optional(input_reliability(*settings.reliability)) : std::nullopt,
+          .depth = settings.history_depth,
+          .deadline_s = settings.deadline_s,
+          .liveliness = liveliness(settings.liveliness),
           .lease_s = settings.liveliness_lease_s,
           .partitions = settings.partitions};
 }
@@ -76,6 +94,7 @@ bus::BusOptions bus_options(const settings::BusSettings& settings) {
   options.shard = fleet::parse_shard(settings.shard);
   options.input = profile(settings.input.qos);
   options.output = profile(settings.output.qos);
+  std::ranges::transform(settings.topic_qos, std::back_inserter(options.topic_qos), topic_qos);
   options.ros2.topics = settings.ros2.topics;
   options.ros2.outputs = {.denoised_suffix = settings.ros2.denoised_suffix,
                           .realtime_suffix = settings.ros2.realtime_suffix};

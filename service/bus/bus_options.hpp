@@ -130,10 +130,16 @@ struct BusOptions {
   /// Output: whether the topics of estimates without look-ahead are offered. Only model methods make such estimates.
   bool realtime = false;
 
+  /// What differs for single topics, gyrod's own and those of ROS 2. Of several, the last that says something holds.
+  std::vector<TopicQos> topic_qos = {};
+
   /// Samples of one batch message. 1..65536. Output: a longer run is split. Input: a longer batch is refused
   /// and counted.
   std::size_t max_batch_samples = 1024;
 };
+
+/// The options with what differs for this topic, in every group: whoever opens it looks at its own.
+[[nodiscard]] BusOptions for_topic(BusOptions options, std::string_view topic);
 
 /// Longest sensor id in characters: the bound of the key in idl/gyrod.idl.
 inline constexpr std::size_t kMaxSensorIdLength = 64;

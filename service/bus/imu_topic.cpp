@@ -8,12 +8,16 @@ namespace gyrod::bus {
 ImuTopic::ImuTopic(const Domain& domain, std::string name, const BusOptions& options)
     : name_(std::move(name)),
       outputs_(ros2::outputs_of(name_, options.ros2.outputs)),
-      reader_(domain.participant(), name_, options.ros2.input_reliability,
-              [&options](Reliability reliability) { return imu_reader_qos(options.ros2, reliability); }),
-      denoised_(domain.participant(), outputs_.denoised, imu_writer_qos(options.ros2)),
+      reader_(domain.participant(), name_, for_topic(options, name_).ros2.input_reliability,
+              [ros2 = for_topic(options, name_).ros2](Reliability reliability) {
+                return imu_reader_qos(ros2, reliability);
+              }),
+      denoised_(domain.participant(), outputs_.denoised,
+                imu_writer_qos(for_topic(options, outputs_.denoised).ros2)),
       held_(options.ros2.max_held_messages) {
   if (options.realtime)
-    realtime_.emplace(domain.participant(), outputs_.realtime, imu_writer_qos(options.ros2));
+    realtime_.emplace(domain.participant(), outputs_.realtime,
+                      imu_writer_qos(for_topic(options, outputs_.realtime).ros2));
 }
 
 bool ImuTopic::hold(const Imu& message) noexcept {

@@ -190,8 +190,9 @@ class MismatchWatch::Impl {
   }
 
   [[nodiscard]] bool is_auto(const std::string& topic) const {
-    const bool own = topic == options_.topics.raw || topic == options_.topics.raw_batch;
-    return (own ? options_.input_reliability : options_.ros2.input_reliability) == InputReliability::kAuto;
+    const BusOptions own = for_topic(options_, topic);
+    const bool is_raw = topic == own.topics.raw || topic == own.topics.raw_batch;
+    return (is_raw ? own.input_reliability : own.ros2.input_reliability) == InputReliability::kAuto;
   }
 
   void warn(Ends& side, const Guid& key, const KnownEnd& peer, const std::vector<Difference>& found) {

@@ -29,8 +29,10 @@ class Publisher::Impl {
       : domain_(domain),
         max_batch_samples_(options.max_batch_samples),
         denoised_(domain, options.topics.denoised, options.topics.denoised_batch, options),
-        reports_(domain.participant(), options.topics.noise, report_writer_qos(options)),
-        health_(domain.participant(), options.topics.health, report_writer_qos(options)) {
+        reports_(domain.participant(), options.topics.noise,
+                 report_writer_qos(for_topic(options, options.topics.noise))),
+        health_(domain.participant(), options.topics.health,
+                report_writer_qos(for_topic(options, options.topics.health))) {
     if (options.realtime)
       realtime_.emplace(domain, options.topics.realtime, options.topics.realtime_batch, options);
   }
@@ -104,8 +106,8 @@ class Publisher::Impl {
   struct Topics {
     Topics(const Domain& domain, const std::string& single, const std::string& batch,
            const BusOptions& options)
-        : singles(domain.participant(), single, output_writer_qos(options)),
-          batches(domain.participant(), batch, output_writer_qos(options)) {}
+        : singles(domain.participant(), single, output_writer_qos(for_topic(options, single))),
+          batches(domain.participant(), batch, output_writer_qos(for_topic(options, batch))) {}
 
     TopicWriter<gyrod_DenoisedSample> singles;
     TopicWriter<gyrod_DenoisedBatch> batches;

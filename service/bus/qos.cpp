@@ -189,7 +189,7 @@ Qos output_writer_qos(const BusOptions& options) {
 
 Qos report_writer_qos(const BusOptions& options) {
   Qos qos = plain_output_writer_qos(options);
-  qos.keep_for_late_joiners(1).partitions(options.output.partitions);
+  qos.keep_for_late_joiners(1).promise(options.output);
   if (options.ownership_strength > 0)
     qos.exclusive().strength(options.ownership_strength).lease(0.5 * options.takeover_s);
   return qos;

@@ -69,6 +69,8 @@ class Qos {
   std::string text_;
 };
 
+// The options are those for the topic (for_topic).
+
 /// gyrod's reader of raw samples.
 [[nodiscard]] Qos input_reader_qos(const BusOptions& options, Reliability reliability);
 /// The writer of raw samples in `replay` and `simulate`: reliable and keep all, so that it is slowed down and

@@ -1,6 +1,8 @@
 /// What the two ends of a topic promise one another, besides history.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,18 @@ struct QosProfile {
 
   /// Names of parts of the domain: only ends that share one meet. None: the part without a name. A reader's may hold '*' and '?'.
   std::vector<std::string> partitions;
+};
+
+/// What differs for one topic from what is said for its kind. What is empty does not differ.
+struct TopicQos {
+  /// Its name, or a pattern of ROS 2 topics (ros2/names.hpp).
+  std::string topic;
+  std::optional<InputReliability> reliability = {};  ///< kAuto: of topics that are read
+  std::optional<std::size_t> depth = {};             ///< messages kept of a sensor; 0, of raw topics: all
+  std::optional<double> deadline_s = {};
+  std::optional<Liveliness> liveliness = {};
+  std::optional<double> lease_s = {};
+  std::optional<std::vector<std::string>> partitions = {};
 };
 
 }  // namespace gyrod::bus

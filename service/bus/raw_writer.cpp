@@ -24,11 +24,12 @@ void check_partitions(const std::vector<std::string>& names) {
   throw BusError("partition '" + *found + "': expected a name without '*' and '?' to write to");
 }
 
-Writer create(const Domain& domain, const BusOptions& options, std::size_t batch_samples, std::size_t past) {
-  if (batch_samples < 1 || batch_samples > options.max_batch_samples) {
+Writer create(const Domain& domain, const BusOptions& all, std::size_t batch_samples, std::size_t past) {
+  if (batch_samples < 1 || batch_samples > all.max_batch_samples) {
     throw BusError("batch of " + std::to_string(batch_samples) + " samples: expected 1.." +
-                   std::to_string(options.max_batch_samples));
+                   std::to_string(all.max_batch_samples));
   }
+  const BusOptions options = for_topic(all, batch_samples == 1 ? all.topics.raw : all.topics.raw_batch);
   check_partitions(options.input.partitions);
   const Qos qos = input_writer_qos(options, past);
   if (batch_samples == 1) return Singles(domain.participant(), options.topics.raw, qos);

@@ -85,12 +85,14 @@ class Standby::Impl {
         sink_(sink),
         takeover_s_(options.takeover_s),
         most_held_(options.output_depth),
-        denoised_(domain.participant(), options.topics.denoised_batch, standby_reader_qos(options)),
+        denoised_(domain.participant(), options.topics.denoised_batch,
+                  standby_reader_qos(for_topic(options, options.topics.denoised_batch))),
         others_(options.ownership_strength),
         looking_since_s_(now_s()),
         ticked_s_(looking_since_s_) {
     if (options.realtime)
-      realtime_.emplace(domain.participant(), options.topics.realtime_batch, standby_reader_qos(options));
+      realtime_.emplace(domain.participant(), options.topics.realtime_batch,
+                        standby_reader_qos(for_topic(options, options.topics.realtime_batch)));
     thread_ = std::thread([this] { work(); });
   }
 

@@ -81,12 +81,15 @@ class Subscriber::Impl {
                        TopicType<gyrod_GyroBatch>::kDescriptor->m_typename}),
         promises_(domain),
         waitset_(create_waitset(domain)) {
-    const auto qos = [&options](Reliability reliability) { return input_reader_qos(options, reliability); };
-    singles_.emplace(domain.participant(), options.topics.raw, options.input_reliability, qos);
-    batches_.emplace(domain.participant(), options.topics.raw_batch, options.input_reliability, qos);
     const Attendants attendants{waitset_->get(), &promises_};
-    singles_->attend(attendants, options.input, kSingles * kReaders);
-    batches_->attend(attendants, options.input, kBatches * kReaders);
+    const auto open = [&](auto& reader, const std::string& topic, std::uint64_t mask) {
+      const BusOptions own = for_topic(options, topic);
+      reader.emplace(domain.participant(), topic, own.input_reliability,
+                     [own](Reliability reliability) { return input_reader_qos(own, reliability); });
+      reader->attend(attendants, own.input, mask);
+    };
+    open(singles_, options.topics.raw, kSingles * kReaders);
+    open(batches_, options.topics.raw_batch, kBatches * kReaders);
     check(dds_waitset_attach(waitset_->get(), book_.condition(), 0), "wait for writers");
     check(dds_waitset_attach(waitset_->get(), promises_.condition(), 0), "wait for broken promises");
     check(dds_waitset_attach(waitset_->get(), waitset_->get(), 0), "wait for the stop");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "settings/settings.hpp"
+#include "settings/topic_qos_json.hpp"
 
 namespace gyrod::settings {
 
@@ -48,6 +49,7 @@ void visit_bus(BusSettings& bus, Visit& visit) {
   visit("bus.output.history_depth", bus.output.history_depth);
   visit("bus.output.ownership_strength", bus.output.ownership_strength);
   visit("bus.output.takeover_s", bus.output.takeover_s);
+  visit("bus.topic_qos", bus.topic_qos);
   visit("bus.ros2.topics", bus.ros2.topics);
   visit("bus.ros2.denoised_suffix", bus.ros2.denoised_suffix);
   visit("bus.ros2.realtime_suffix", bus.ros2.realtime_suffix);

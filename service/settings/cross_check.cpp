@@ -14,6 +14,7 @@
 #include "settings/document.hpp"
 #include "settings/enum_names.hpp"
 #include "settings/noise_calibration.hpp"
+#include "settings/topic_qos_check.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -147,8 +148,10 @@ class CrossCheck {
     check_liveliness("bus.output.liveliness", bus.output.qos);
     check_liveliness("bus.ros2.input_liveliness", bus.ros2.input_qos);
     check_liveliness("bus.ros2.output_liveliness", bus.ros2.output_qos);
-    check_written_partitions("bus.output.partitions", bus.output.qos);
-    check_written_partitions("bus.ros2.partitions", bus.ros2.input_qos);
+    check_written_partitions("bus.output.partitions", bus.output.qos.partitions);
+    check_written_partitions("bus.ros2.partitions", bus.ros2.input_qos.partitions);
+    for (const Mistake& mistake : mistakes_of_topic_qos(bus))
+      require(false, mistake.key, mistake.value, mistake.expected, {"bus.topics", "bus.ros2"});
   }
 
   /// Reads the calibrations: a start must not find out later.
@@ -233,10 +236,10 @@ class CrossCheck {
             "above 0, for " + key + " is \"" + std::string(name_of(qos.liveliness)) + "\"", {key});
   }
 
-  void check_written_partitions(const std::string& key, const QosSettings& qos) {
-    for (std::size_t i = 0; i < qos.partitions.size(); ++i) {
-      require(qos.partitions[i].find_first_of("*?") == std::string::npos, key + "[" + std::to_string(i) + "]",
-              qos.partitions[i], "a name without '*' and '?', for gyrod writes there", {key});
+  void check_written_partitions(const std::string& key, const std::vector<std::string>& partitions) {
+    for (std::size_t i = 0; i < partitions.size(); ++i) {
+      require(partitions[i].find_first_of("*?") == std::string::npos, key + "[" + std::to_string(i) + "]",
+              partitions[i], "a name without '*' and '?', for gyrod writes there", {key});
     }
   }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,17 @@ struct QosSettings {
   Liveliness liveliness = Liveliness::kAutomatic;
   double liveliness_lease_s = 0.0;
   std::vector<std::string> partitions;
+};
+
+/// What differs for one topic, or for ROS 2 topics of a pattern, from what its group says; as bus::TopicQos.
+struct TopicQosSettings {
+  std::string topic;
+  std::optional<InputReliability> reliability;
+  std::optional<std::size_t> history_depth;
+  std::optional<double> deadline_s;
+  std::optional<Liveliness> liveliness;
+  std::optional<double> liveliness_lease_s;
+  std::optional<std::vector<std::string>> partitions;
 };
 
 struct InputSettings {
@@ -99,6 +111,8 @@ struct BusSettings {
   TopicSettings topics;
   InputSettings input;
   OutputSettings output;
+  /// Of several for a topic, the last that says something holds.
+  std::vector<TopicQosSettings> topic_qos;
   Ros2Settings ros2;
   SecuritySettings security;
 };

@@ -103,6 +103,23 @@ TEST_P(PromisesTest, PartitionsKeepVehiclesApart) {
   EXPECT_TRUE(collector_.samples("gyro8").empty());
 }
 
+TEST_P(PromisesTest, ASingleTopicHasWhatIsSaidOfIt) {
+  options_.topic_qos = {{.topic = options_.topics.raw_batch, .partitions = std::vector<std::string>{"fast"}}};
+  BusOptions elsewhere = options_;
+  elsewhere.topic_qos.clear();
+  Subscriber subscriber(reader_domain(), options_, collector_);
+  subscriber.start();
+  RawWriter single = matched_writer(1);
+  RawWriter batch = matched_writer(10);
+  RawWriter lost(writer_domain(), elsewhere, 10);
+  wait_until([&] { return subscriber.matched_writers() == 2U; });
+  publish_all(lost, "lost", make_samples(0, 10));
+  publish_all(batch, "batch", make_samples(0, 10));
+  publish_all(single, "single", make_samples(0, 10));
+  ASSERT_TRUE(collector_.wait_for_samples(20));
+  EXPECT_TRUE(collector_.samples("lost").empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Bus, PromisesTest, testing::Values(Route::kInProcess, Route::kUdp), route_name);
 
 TEST(RawWriterTest, WritesToNoPartitionWithWildcards) {

@@ -50,5 +50,49 @@ TEST(QosSettings, LivelinessByTopicNeedsALease) {
                           "bus.input.liveliness is \"manual_by_topic\""));
 }
 
+TEST(QosSettings, SingleTopicsSayWhatDiffersAndNoMore) {
+  const Outcome outcome = read_settings(R"({"bus": {
+      "ros2": {"topics": ["rt/*/imu_raw"]},
+      "topic_qos": [{"topic": "gyro/raw", "reliability": "best_effort", "history_depth": 0},
+                    {"topic": "rt/front/imu_raw", "liveliness": "manual_by_topic", "liveliness_lease_s": 0.5,
+                     "partitions": ["car*"], "deadline_s": 0.1}]}})",
+                                        ".");
+  EXPECT_THAT(outcome.issues, IsEmpty());
+  const auto& topics = outcome.settings.bus.topic_qos;
+  ASSERT_EQ(topics.size(), 2U);
+  EXPECT_EQ(topics[0].reliability, InputReliability::kBestEffort);
+  EXPECT_EQ(topics[0].history_depth, 0U);
+  EXPECT_EQ(topics[0].deadline_s, std::nullopt);
+  EXPECT_EQ(topics[1].liveliness, Liveliness::kManualByTopic);
+  EXPECT_EQ(topics[1].deadline_s, 0.1);
+  EXPECT_THAT(topics[1].partitions.value(), ElementsAre("car*"));
+}
+
+TEST(QosSettings, WhatASingleTopicCannotHaveIsRefused) {
+  EXPECT_THAT(
+      messages(R"({"topic_qos": [{"topic": "gyro/row"}]})"),
+      ElementsAre(
+          "bus.topic_qos[0] is \"gyro/row\"; expected one of bus.topics, a topic of bus.ros2.topics or an "
+          "output of one, or a pattern as there"));
+  EXPECT_THAT(messages(R"({"topic_qos": [{"topic": "rt/imu"}]})"), ::testing::SizeIs(1)) << "read by nobody";
+  EXPECT_THAT(
+      messages(R"({"topic_qos": [{"topic": "gyro/noise", "reliability": "auto"}]})"),
+      ElementsAre("bus.topic_qos[0] is \"auto\"; expected \"reliable\" or \"best_effort\", for gyrod writes "
+                  "gyro/noise"));
+  EXPECT_THAT(messages(R"({"topic_qos": [{"topic": "gyro/noise", "history_depth": 0}]})"),
+              ::testing::SizeIs(1));
+  EXPECT_THAT(
+      messages(R"({"topic_qos": [{"topic": "gyro/raw", "liveliness": "manual_by_topic"}]})"),
+      ElementsAre("bus.topic_qos[0] is \"manual_by_topic\"; expected a liveliness_lease_s above 0 with it"));
+  EXPECT_THAT(
+      messages(R"({"topic_qos": [{"topic": "gyro/denoised", "partitions": ["car*"]}]})"),
+      ElementsAre(
+          "bus.topic_qos[0].partitions is \"car*\"; expected a name without '*' and '?', for gyrod writes "
+          "there"));
+  EXPECT_THAT(messages(R"({"topic_qos": [{"topic": "gyro/raw", "depth": 3}]})"),
+              ElementsAre(::testing::HasSubstr("depth")));
+  EXPECT_THAT(messages(R"({"topic_qos": [{"deadline_s": 3}]})"), ElementsAre(::testing::HasSubstr("topic")));
+}
+
 }  // namespace
 }  // namespace gyrod::settings
