@@ -27,8 +27,8 @@ struct MonitorOptions {
 ///   /metrics  Prometheus text format 0.0.4, described in docs/metrics.md
 ///   /healthz  200 while the process answers
 ///   /readyz   200 when work can be done, else 503 with the reason
-/// from a few threads of its own. A client can hold one of them for a bounded time only: one request a
-/// connection, and a limit on its bytes and on its seconds. start() and stop() belong to one thread; port()
+/// from threads of its own, none of which a client can hold: one request a connection, and limits on its
+/// bytes and its seconds. start() and stop() belong to one thread; port()
 /// may be called from any.
 class Monitor {
  public:

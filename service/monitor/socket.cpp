@@ -12,8 +12,8 @@
 namespace gyrod::monitor {
 namespace {
 
-/// Clients that may wait for a thread; more are made to try again by TCP.
-constexpr int kBacklog = 16;
+/// Clients that may wait to be accepted; more are made to try again by TCP.
+constexpr int kBacklog = 128;
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
