@@ -5,8 +5,8 @@
 
 namespace gyrod::monitor {
 
-AnswerPool::AnswerPool(const Answerer& answer, StreamHub& streams, WakeSignal& done)
-    : answer_(answer), streams_(streams), done_signal_(done) {}
+AnswerPool::AnswerPool(const Answerer& answer, Gate& gate, StreamHub& streams, WakeSignal& done)
+    : answer_(answer), gate_(gate), streams_(streams), done_signal_(done) {}
 
 void AnswerPool::start() {
   while (threads_.size() < kThreads) threads_.emplace_back([this] { work(); });
@@ -46,11 +46,11 @@ bool AnswerPool::wait_for(Job& job) {
 }
 
 void AnswerPool::work() noexcept {
-  HttpExchange exchange(answer_, streams_);
+  HttpExchange exchange(answer_, gate_, streams_);
   for (Job job; wait_for(job);) {
     Done done{job.client, {}};
     try {
-      done.reply = exchange.reply_to(job.request);
+      done.reply = exchange.reply_to(job.request, job.address);
     } catch (const std::exception&) {
       // Out of memory: this client is disconnected without an answer, the next one may fare better.
     }

@@ -19,6 +19,7 @@ namespace gyrod::monitor {
 struct Job {
   std::uint64_t client = 0;
   std::string request;
+  std::string address;
 };
 struct Done {
   std::uint64_t client = 0;
@@ -32,7 +33,7 @@ class AnswerPool {
   static constexpr std::size_t kThreads = 3;
 
   /// @param done raised after each answer; all parameters outlive the pool
-  AnswerPool(const Answerer& answer, StreamHub& streams, WakeSignal& done);
+  AnswerPool(const Answerer& answer, Gate& gate, StreamHub& streams, WakeSignal& done);
   /// Stops.
   ~AnswerPool() { stop(); }
   AnswerPool(const AnswerPool&) = delete;
@@ -51,6 +52,7 @@ class AnswerPool {
   [[nodiscard]] bool wait_for(Job& job);
 
   const Answerer& answer_;
+  Gate& gate_;
   StreamHub& streams_;
   WakeSignal& done_signal_;
   std::mutex mutex_;

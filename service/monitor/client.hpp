@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "monitor/http_exchange.hpp"
 #include "monitor/polling.hpp"
@@ -11,11 +13,11 @@
 
 namespace gyrod::monitor {
 
-/// Reads one request, waits for its answer, writes it, closes. Limits on bytes and on time in total (not per
-/// byte, so that one that trickles gains nothing) hold for each. One thread.
+/// Reads a request, waits for its answer, writes it; and so on, or closes. Limits on bytes and on time in total (not
+/// per byte, so that one that trickles gains nothing) hold for each request. One thread.
 class Client {
  public:
-  Client(Transport transport, Deadline now);
+  Client(Transport transport, std::string address, Deadline now);
 
   /// Moves what can be moved.
   /// @param revents as poll() has found them
@@ -29,6 +31,7 @@ class Client {
   /// Whether a whole request is here that nobody has taken yet.
   [[nodiscard]] bool has_request() const noexcept { return state_ == State::kAsking; }
   [[nodiscard]] std::string take_request();
+  [[nodiscard]] const std::string& address() const noexcept { return address_; }
   void answer(Reply reply);
   /// Once the answer is an event stream: the client goes on there.
   [[nodiscard]] std::optional<EventStream> take_stream();
@@ -41,16 +44,23 @@ class Client {
   enum class State { kReading, kAsking, kAnswering, kWriting, kClosing };
 
   [[nodiscard]] bool read(Deadline now);
+  [[nodiscard]] bool find_request(std::size_t from);
+  void refuse(int status, std::string_view words, Deadline now);
+  void begin_next(Deadline now);
   [[nodiscard]] bool write(Deadline now);
   [[nodiscard]] bool drain();
   [[nodiscard]] bool times_out(Deadline now);
 
   State state_ = State::kReading;
   Transport transport_;
-  Deadline begin_;
-  Deadline deadline_;
-  Deadline last_progress_;
-  std::string request_;
+  std::string address_;
+  Deadline begin_;                  ///< of this request
+  Deadline deadline_;               ///< of this state
+  Deadline last_progress_;          ///< of writing
+  std::string received_;            ///< not taken yet; may hold the begin of the next request
+  std::size_t request_bytes_ = 0;   ///< of those, the whole request; 0 while it is not
+  std::uint64_t bytes_before_ = 0;  ///< that came before this request
+  std::size_t requests_ = 0;        ///< answered
   Reply reply_;
   std::size_t sent_ = 0;
 };

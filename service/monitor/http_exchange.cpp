@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <exception>
+#include <optional>
 #include <utility>
+
+#include "monitor/failure.hpp"
 
 namespace gyrod::monitor {
 namespace {
@@ -73,19 +77,28 @@ std::string without_ranges(std::string_view head) {
   return kept;
 }
 
+bool has_body(const httplib::Request& request) {
+  const std::string length = request.get_header_value("Content-Length");
+  return request.has_header("Transfer-Encoding") || (!length.empty() && length != "0");
+}
+
 /// What cpp-httplib would do by itself and is not wanted: compress at the highest effort (Brotli, seconds for large
-/// answers), and answer twice.
+/// answers), and answer twice. Behind a body that nobody reads there is no next request.
 void tame(httplib::Request& request) {
   const bool gzip = request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
   request.headers.erase("Accept-Encoding");
   if (gzip) request.headers.emplace("Accept-Encoding", "gzip");
   request.headers.erase("Expect");
+  if (!has_body(request)) return;
+  request.headers.erase("Connection");
+  request.headers.emplace("Connection", "close");
 }
 
 /// Of what does not go through cpp-httplib.
 std::string first_line(int status) {
   const std::string_view reason = status == 200   ? "OK"
                                   : status == 408 ? "Request Timeout"
+                                  : status == 429 ? "Too Many Requests"
                                                   : "Request Header Fields Too Large";
   return "HTTP/1.1 " + std::to_string(status) + " " + std::string(reason) + "\r\n";
 }
@@ -107,49 +120,50 @@ std::string with_head(const Answer& answer) {
   return text + "\r\n";
 }
 
-std::string json_text(std::string_view words) {
-  std::string text = "\"";
-  for (const char c : words) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
-  return text + '"';
-}
-
-/// In the form of what was asked for.
-Answer failure(int status, std::string_view path, const std::string& words) {
-  if (!path.starts_with("/api/")) return {.status = status, .body = words + "\n"};
-  return {
-      .status = status, .content_type = "application/json", .body = "{\"error\":" + json_text(words) + "}\n"};
-}
-
 }  // namespace
 
 Reply refusal(int status, std::string_view words) {
-  const Answer answer{.status = status, .content_type = std::string(kText)};
+  Answer answer{.status = status, .content_type = std::string(kText)};
+  if (status == 429) answer.headers.emplace_back("Retry-After", "1");
   return {with_head(answer).append(words).append("\n")};
 }
 
-HttpExchange::HttpExchange(const Answerer& answer, StreamHub& streams) : answer_(answer), streams_(streams) {
+HttpExchange::HttpExchange(const Answerer& answer, Gate& gate, StreamHub& streams)
+    : answer_(answer), gate_(gate), streams_(streams) {
+  set_keep_alive_timeout(kKeepOpenTime.count());
+  set_keep_alive_max_count(kMaxRequests);
   // Before cpp-httplib routes anything or reads a body: no body is ever read.
   set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
     respond(request, response);
     return HandlerResponse::Handled;
   });
+  set_error_handler([](const httplib::Request&, httplib::Response& response) {
+    if (response.status == 400 && response.body.empty())
+      response.set_content("no HTTP request\n", std::string(kText));
+  });
 }
 
-Reply HttpExchange::reply_to(std::string_view head) {
+Reply HttpExchange::reply_to(std::string_view head, const std::string& address) {
   const std::string text = without_ranges(head);
   TextStream stream(text);
-  constexpr bool kCloseAfterwards = true;
-  bool client_closes = false;
+  constexpr bool kCloseAfterwards = false;
+  bool closes = false;
+  address_ = address;
   reply_ = {};
-  process_request(stream, kCloseAfterwards, client_closes, tame);
-  if (reply_.bytes.empty()) reply_.bytes = stream.take();
+  understood_ = false;
+  const bool whole = process_request(stream, kCloseAfterwards, closes, [&closes](httplib::Request& request) {
+    tame(request);
+    closes = closes || has_body(request);
+  });
+  if (reply_.bytes.empty()) {
+    reply_.bytes = stream.take();
+    reply_.keep_open = whole && understood_ && !closes;
+  }
   return std::move(reply_);
 }
 
 void HttpExchange::respond(const httplib::Request& request, httplib::Response& response) {
+  understood_ = true;
   Answer answer = answer_to(request);
   if (answer.events) {
     reply_.bytes = with_head(answer);
@@ -171,7 +185,13 @@ void HttpExchange::respond(const httplib::Request& request, httplib::Response& r
   response.set_content(std::move(answer.body), answer.content_type);
 }
 
-Answer HttpExchange::answer_to(const httplib::Request& request) const {
+Answer HttpExchange::answer_to(const httplib::Request& request) {
+  const std::string host = request.get_header_value("Host");
+  const std::string authorization = request.get_header_value("Authorization");
+  std::optional<Answer> refused =
+      gate_.refuse({.path = request.path, .host = host, .authorization = authorization, .address = address_},
+                   std::chrono::steady_clock::now());
+  if (refused) return std::move(*refused);
   if (request.method != "GET" && request.method != "HEAD") {
     Answer answer = failure(405, request.path, "only GET and HEAD");
     answer.headers.emplace_back("Allow", "GET, HEAD");

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <exception>
 #include <iterator>
-#include <sys/socket.h>
 #include <utility>
 
 namespace gyrod::monitor {
@@ -19,13 +18,21 @@ constexpr std::size_t kMaxUnsentBytes = std::size_t{64} * 1024 * 1024;
 constexpr std::chrono::milliseconds kDeafTime{500};
 /// Before the clients that are here have their turn.
 constexpr int kMaxAccepted = 64;
+constexpr std::chrono::seconds kLookAgain{1};
 /// After a failed accept(), e.g. no descriptor left: others may give some back.
 constexpr std::chrono::milliseconds kAcceptPause{50};
 
 }  // namespace
 
-HttpServer::HttpServer(Socket listener, Answerer answer, const StreamOptions& streams)
-    : listener_(std::move(listener)), answer_(std::move(answer)), streams_(streams) {}
+HttpServer::HttpServer(Socket listener, Answerer answer, const HttpOptions& options)
+    : listener_(std::move(listener)),
+      answer_(std::move(answer)),
+      warn_(options.warn),
+      gate_(options.access, options.address, options.warn),
+      requests_(options.requests),
+      streams_(options.streams) {
+  if (options.access.uses_tls()) tls_.emplace(options.access.certificate_file, options.access.key_file);
+}
 
 void HttpServer::start() {
   streams_.start();
@@ -93,13 +100,28 @@ void HttpServer::accept_clients(Deadline now) {
       accept_again_ = now + kAcceptPause;
       return;
     }
-    Socket socket(accept4(listener_.descriptor(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    auto [socket, address] = accept_from(listener_);
     if (!socket) {
       if (errno != EAGAIN && errno != ECONNABORTED) accept_again_ = now + kAcceptPause;
       return;
     }
-    clients_.emplace(next_number_++, Client(Transport(std::move(socket)), now));
+    Ssl tls = tls_ ? new_tls(socket.descriptor(), now) : nullptr;
+    if (tls_ && tls == nullptr) continue;  // no memory
+    clients_.emplace(next_number_++,
+                     Client(Transport(std::move(socket), std::move(tls)), std::move(address), now));
   }
+}
+
+Ssl HttpServer::new_tls(int descriptor, Deadline now) {
+  if (now >= look_for_certificate_) {
+    look_for_certificate_ = now + kLookAgain;
+    try {
+      tls_->renew();
+    } catch (const AccessError& error) {
+      warn_(std::string("monitor.tls: ") + error.what() + "; the certificate before stays in use");
+    }
+  }
+  return tls_->serve(descriptor);
 }
 
 void HttpServer::take_answers() {
@@ -127,7 +149,12 @@ void HttpServer::hand_out_requests(Deadline now) {
   for (auto& [number, client] : clients_) {
     if (jobs_ >= AnswerPool::kThreads) return;
     if (!client.has_request()) continue;
-    pool_.add({number, client.take_request()});
+    std::string request = client.take_request();
+    if (!requests_.take(client.address(), now)) {
+      client.answer(refusal(429, "more than 200 requests a second from this address"));
+      continue;
+    }
+    pool_.add({number, std::move(request), client.address()});
     ++jobs_;
   }
 }

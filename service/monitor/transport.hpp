@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <poll.h>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include "monitor/socket.hpp"
+#include "monitor/tls.hpp"
 
 namespace gyrod::monitor {
 
@@ -22,7 +24,9 @@ struct Transfer {
 class Transport {
  public:
   /// @param socket connected and non-blocking
-  explicit Transport(Socket socket) noexcept : socket_(std::move(socket)) {}
+  /// @param tls for that socket; none: without
+  explicit Transport(Socket socket, Ssl tls = nullptr) noexcept
+      : socket_(std::move(socket)), tls_(std::move(tls)) {}
 
   [[nodiscard]] Transfer read(std::span<char> bytes) noexcept;
   [[nodiscard]] Transfer write(std::string_view bytes) noexcept;
@@ -31,12 +35,20 @@ class Transport {
   /// Whether little enough of what was written is still on this machine.
   [[nodiscard]] bool is_writable() const noexcept;
   /// What to poll for before reading (POLLIN), writing (POLLOUT), or either.
-  [[nodiscard]] pollfd waits_for(short events) const noexcept { return {socket_.descriptor(), events, 0}; }
+  [[nodiscard]] pollfd waits_for(short events) const noexcept;
+  /// All that has come, the handshake included.
+  [[nodiscard]] std::uint64_t received_bytes() const noexcept;
   /// Caps what the system holds for a client that does not read, and how long for one that is gone.
   void limit_unsent() noexcept;
 
  private:
+  [[nodiscard]] Transfer outcome(int result, std::size_t bytes) noexcept;
+
   Socket socket_;
+  Ssl tls_;  ///< gone before the socket
+  std::uint64_t received_ = 0;
+  bool broken_ = false;
+  short blocked_on_ = 0;  ///< what TLS waits for, be it to read or to write
 };
 
 }  // namespace gyrod::monitor

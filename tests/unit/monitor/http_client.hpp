@@ -31,6 +31,7 @@ class HttpClient {
   }
 
   [[nodiscard]] bool connected() const { return connected_; }
+  [[nodiscard]] int descriptor() const { return socket_.descriptor(); }
 
   /// @return false if the other side has closed
   bool send(std::string_view bytes) const {
@@ -74,7 +75,8 @@ struct HttpAnswer {
 inline HttpAnswer ask(std::uint16_t port, const std::string& method, const std::string& path,
                       const std::string& headers = {}) {
   const HttpClient client(port);
-  (void)client.send(method + " " + path + " HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n");
+  (void)client.send(method + " " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + headers +
+                    "\r\n");
   const std::string all = client.receive();
   HttpAnswer answer;
   const std::size_t end = all.find("\r\n\r\n");

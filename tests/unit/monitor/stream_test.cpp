@@ -52,7 +52,8 @@ class StreamTest : public ::testing::Test {
     Socket listener = listen_on("127.0.0.1", 0);
     port_ = port_of(listener);
     server_ = std::make_unique<HttpServer>(
-        std::move(listener), [this](const Request& request) { return answer(request); }, options_);
+        std::move(listener), [this](const Request& request) { return answer(request); },
+        HttpOptions{.streams = options_});
     server_->start();
   }
 
