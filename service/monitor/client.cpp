@@ -36,12 +36,13 @@ bool Client::step(Deadline now, short revents) {
   if (state_ == State::kReading && !read(now)) return false;
   if (state_ == State::kWriting && !write(now)) return false;
   if (state_ == State::kClosing && !drain()) return false;
+  // Who has left gets no answer made: one that only ends its own side before it has one does not either.
   const bool waits = state_ == State::kAsking || state_ == State::kAnswering;
-  return !waits || (revents & (POLLERR | POLLHUP)) == 0;
+  return !waits || (revents & (POLLERR | POLLHUP | POLLRDHUP)) == 0;
 }
 
 pollfd Client::waits_for() const noexcept {
-  if (state_ == State::kAsking || state_ == State::kAnswering) return transport_.waits_for(0);
+  if (state_ == State::kAsking || state_ == State::kAnswering) return transport_.waits_for(POLLRDHUP);
   return transport_.waits_for(state_ == State::kWriting ? POLLOUT : POLLIN);
 }
 

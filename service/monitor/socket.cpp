@@ -16,7 +16,7 @@ namespace gyrod::monitor {
 namespace {
 
 /// Clients that may wait to be accepted; more are made to try again by TCP.
-constexpr int kBacklog = 128;
+constexpr int kBacklog = 1024;
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
