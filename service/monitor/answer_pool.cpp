@@ -3,6 +3,8 @@
 #include <exception>
 #include <utility>
 
+#include "monitor/background.hpp"
+
 namespace gyrod::monitor {
 
 AnswerPool::AnswerPool(const Answerer& answer, Gate& gate, StreamHub& streams, WakeSignal& done)
@@ -46,6 +48,7 @@ bool AnswerPool::wait_for(Job& job) {
 }
 
 void AnswerPool::work() noexcept {
+  run_in_background();
   HttpExchange exchange(answer_, gate_, streams_);
   for (Job job; wait_for(job);) {
     Done done{job.client, {}};

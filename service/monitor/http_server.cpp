@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "monitor/background.hpp"
+
 namespace gyrod::monitor {
 namespace {
 
@@ -51,6 +53,7 @@ void HttpServer::stop() noexcept {
 }
 
 void HttpServer::serve() noexcept {
+  run_in_background();
   while (!stopping_) {
     try {
       serve_once();

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "monitor/background.hpp"
+
 namespace gyrod::monitor {
 
 void StreamHub::start() {
@@ -37,6 +39,7 @@ void StreamHub::add(EventStream stream) {
 }
 
 void StreamHub::serve() noexcept {
+  run_in_background();
   while (!stopping_) {
     try {
       wait();

@@ -28,6 +28,8 @@ std::string reason() {
   return words == nullptr ? "no reason given" : words;
 }
 
+/// @param text outlives it
+Owned<BIO> bio_of(std::string&& text) = delete;
 Owned<BIO> bio_of(const std::string& text) {
   return Owned<BIO>(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }
@@ -54,13 +56,14 @@ void check_time(const std::string& file, const X509* certificate) {
 }
 
 void use_certificates(SSL_CTX* context, const std::string& file) {
-  const Owned<BIO> text = bio_of(read_file(file));
-  const Owned<X509> ours(PEM_read_bio_X509(text.get(), nullptr, no_passphrase, nullptr));
+  const std::string text = read_file(file);
+  const Owned<BIO> bio = bio_of(text);
+  const Owned<X509> ours(PEM_read_bio_X509(bio.get(), nullptr, no_passphrase, nullptr));
   if (ours == nullptr) throw AccessError(file, "no certificate (" + reason() + "); expected one in PEM");
   check_time(file, ours.get());
   if (SSL_CTX_use_certificate(context, ours.get()) != 1)
     throw AccessError(file, "the certificate cannot be used: " + reason());
-  while (X509* next = PEM_read_bio_X509(text.get(), nullptr, no_passphrase, nullptr)) {
+  while (X509* next = PEM_read_bio_X509(bio.get(), nullptr, no_passphrase, nullptr)) {
     if (SSL_CTX_add0_chain_cert(context, next) != 1) X509_free(next);
   }
   ERR_clear_error();  // the end of the file is one
