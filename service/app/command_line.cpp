@@ -11,6 +11,7 @@
 #include "bus/bus_error.hpp"
 #include "bus/security_error.hpp"
 #include "files/file_error.hpp"
+#include "monitor/secret_file.hpp"
 #include "settings/json_fields.hpp"
 #include "settings/load.hpp"
 
@@ -75,6 +76,8 @@ int run_command_line(int argc, const char* const* argv) noexcept {
   } catch (const settings::NoiseFileError& error) {
     return complain(error, kFileTrouble);
   } catch (const bus::SecurityError& error) {
+    return complain(error, kNotAllowed);
+  } catch (const monitor::AccessError& error) {
     return complain(error, kNotAllowed);
   } catch (const bus::BusError& error) {
     return complain(error, kUnavailable);

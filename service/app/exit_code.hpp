@@ -12,14 +12,14 @@ enum ExitCode : int {
       4,  ///< a recording or calibration cannot be read or understood, or an output cannot be written
   kUnavailable = 5,    ///< DDS or the HTTP port refuses
   kIncomplete = 6,     ///< done, but data are missing: a gap, nobody there, a stop that had to hurry
-  kNotAllowed = 7,     ///< DDS Security: a certificate or key is no good, or permissions forbid it
+  kNotAllowed = 7,     ///< a certificate, key, token or password file is no good, or DDS permissions forbid it
   kInterrupted = 130,  ///< Ctrl-C or SIGTERM ended it before it was done (128 + SIGINT, as shells count)
 };
 
 /// The codes in words, for the end of the help text.
 inline constexpr const char* kExitCodesHelp =
     "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 wrong configuration; 4 a file cannot be read,\n"
-    "understood or written; 5 DDS or the HTTP port refuses; 6 done, but data are missing; 7 DDS Security:\n"
-    "a certificate or key is no good, or permissions forbid it; 130 interrupted.";
+    "understood or written; 5 DDS or the HTTP port refuses; 6 done, but data are missing;\n"
+    "7 a certificate, key, token or password file is no good, or DDS permissions forbid it; 130 interrupted.";
 
 }  // namespace gyrod::app

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <thread>
 
+#include <spdlog/spdlog.h>
+
 #include "app/version.hpp"
 #include "stream/joint_method.hpp"
 #include "stream/paper_method.hpp"
@@ -170,6 +172,11 @@ monitor::MonitorOptions monitor_options(const settings::MonitorSettings& setting
   options.address = settings.address;
   options.port = settings.port;
   options.max_channel_series = settings.max_channel_series;
+  options.access = {.certificate_file = settings.tls.certificate_file,
+                    .key_file = settings.tls.key_file,
+                    .token_file = settings.auth.token_file,
+                    .users_file = settings.auth.users_file};
+  options.warn = [](const std::string& line) { spdlog::warn(line); };
   options.version = version();
   return options;
 }

@@ -130,7 +130,9 @@ void announce(const settings::Settings& settings, const Service& service) {
   announce_restart(settings, service);
   for (const std::string& line : settings::unused_keys(settings)) spdlog::warn("unused: {}", line);
   if (service.monitor_port() == 0) return;
-  spdlog::info("metrics at http://{}:{}/metrics", settings.monitor.address, service.monitor_port());
+  const bool tls = !settings.monitor.tls.certificate_file.empty();
+  spdlog::info("metrics at {}://{}:{}/metrics", tls ? "https" : "http", settings.monitor.address,
+               service.monitor_port());
 }
 
 /// What DDS Security has to say: of peers that are kept out, and of our own certificate.

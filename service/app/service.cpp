@@ -139,6 +139,8 @@ Service::Service(const settings::Settings& settings)
   if (!settings.monitor.enabled) return;
   try {
     monitor_.emplace(monitor_options(settings.monitor), view());
+  } catch (const monitor::AccessError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     throw Unavailable(error.what());
   }

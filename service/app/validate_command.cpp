@@ -3,7 +3,9 @@
 
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
+#include "app/options.hpp"
 #include "bus/security_check.hpp"
+#include "monitor/gate.hpp"
 #include "settings/load.hpp"
 #include "settings/unused_keys.hpp"
 
@@ -17,6 +19,8 @@ int validate(const std::string& config) {
     (void)bus::check_security(bus::security_files(settings.bus.security.folder), now,
                               bus::KeyOwner::kAnyUser);
   }
+  if (settings.monitor.enabled)
+    monitor::check_access(monitor_options(settings.monitor).access, monitor::FileOwner::kAnyUser);
   std::printf("%s is valid\n", config.c_str());
   for (const std::string& line : settings::unused_keys(settings)) std::printf("  unused: %s\n", line.c_str());
   return kDone;
@@ -34,7 +38,8 @@ void add_validate(CLI::App& parser, Action& chosen) {
   command->footer(
       "Every error is reported at once: the key, its value, and what was expected.\n"
       "What is set in vain, a key of the other denoise.method, is named as well and is no error.\n"
-      "The files of bus.security.folder are checked, too, for whatever user will run gyrod.\n"
+      "The files of bus.security.folder, monitor.tls and monitor.auth are checked, too, for whatever\n"
+      "user will run gyrod.\n"
       "Exit code 0 if there is no error, 7 for those files, else 3.\n\n"
       "Example:\n  gyrod validate --config /etc/gyrod/gyrod.json");
   command->callback([&chosen, config] { chosen = [config](Interrupt&) { return validate(*config); }; });

@@ -47,7 +47,8 @@ class Monitor::Impl {
       : readiness_(view.readiness),
         collector_(collector_options(options), std::move(view)),
         port_(port_of(listener)),
-        server_(std::move(listener), [this](const Request& request) { return answer(request.path); }) {}
+        server_(std::move(listener), [this](const Request& request) { return answer(request.path); },
+                {.address = options.address, .access = options.access, .warn = options.warn}) {}
 
   [[nodiscard]] Answer answer(const std::string& path) const {
     if (path == "/metrics") {

@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "monitor/access_options.hpp"
+#include "monitor/gate.hpp"
 #include "monitor/view.hpp"
 
 namespace gyrod::monitor {
@@ -18,6 +20,9 @@ struct MonitorOptions {
   /// Sensors that get series of their own at the most, in the order of opening. A sensor has at most 40
   /// series.
   std::size_t max_channel_series = 200;
+  AccessOptions access = {};
+  /// A line for the log: of wrong credentials, of files that cannot be read any more.
+  Warn warn = [](const std::string&) {};
   /// What gyrod_build_info says.
   std::string version = "unknown";
 };
@@ -27,13 +32,13 @@ struct MonitorOptions {
 ///   /metrics  Prometheus text format 0.0.4, described in docs/metrics.md
 ///   /healthz  200 while the process answers
 ///   /readyz   200 when work can be done, else 503 with the reason
-/// from a few threads of its own. A client can hold one of them for a bounded time only: one request a
-/// connection, and a limit on its bytes and on its seconds. start() and stop() belong to one thread; port()
-/// may be called from any.
+/// from threads of its own, none of which a client can hold: there are limits on its bytes and its seconds. start()
+/// and stop() belong to one thread; port() may be called from any.
 class Monitor {
  public:
   /// Takes the port; clients wait from then on, and are answered after start().
-  /// @throws std::runtime_error naming address, port and reason, e.g. "port 9464 on 127.0.0.1 is in use"
+  /// @throws std::runtime_error naming address, port and reason, e.g. "port 9464 on 127.0.0.1 is in use"; AccessError
+  /// for a certificate, key, token or users that are no good
   Monitor(const MonitorOptions& options, View view);
   /// Stops.
   ~Monitor();

@@ -1,5 +1,8 @@
 #include "monitor/socket.hpp"
 
+#include <algorithm>
+#include <arpa/inet.h>
+#include <array>
 #include <cerrno>
 #include <memory>
 #include <netdb.h>
@@ -12,8 +15,8 @@
 namespace gyrod::monitor {
 namespace {
 
-/// Clients that may wait for a thread; more are made to try again by TCP.
-constexpr int kBacklog = 16;
+/// Clients that may wait to be accepted; more are made to try again by TCP.
+constexpr int kBacklog = 1024;
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
@@ -53,6 +56,23 @@ Socket try_listen(const addrinfo& address) {
   return {};
 }
 
+std::string text_of(int family, const void* address) {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  return inet_ntop(family, address, text.data(), text.size()) == nullptr ? std::string() : text.data();
+}
+
+std::string text_of(const sockaddr_storage& peer) {
+  if (peer.ss_family == AF_INET)
+    return text_of(AF_INET, &reinterpret_cast<const sockaddr_in&>(peer).sin_addr);
+  if (peer.ss_family != AF_INET6) return {};
+  in6_addr address = reinterpret_cast<const sockaddr_in6&>(peer).sin6_addr;
+  std::uint8_t* const bytes = address.s6_addr;
+  if (IN6_IS_ADDR_V4MAPPED(&address)) return text_of(AF_INET, bytes + 12);
+  if (IN6_IS_ADDR_LOOPBACK(&address)) return "::1";
+  std::fill(bytes + 8, bytes + 16, std::uint8_t{0});
+  return text_of(AF_INET6, &address) + "/64";
+}
+
 }  // namespace
 
 Socket::~Socket() {
@@ -67,6 +87,15 @@ Socket listen_on(const std::string& address, std::uint16_t port) {
     error = errno;
   }
   throw std::runtime_error("port " + std::to_string(port) + " on " + address + " " + reason_words(error));
+}
+
+Accepted accept_from(const Socket& listener) {
+  sockaddr_storage peer{};
+  socklen_t size = sizeof peer;
+  Socket socket(accept4(listener.descriptor(), reinterpret_cast<sockaddr*>(&peer), &size,
+                        SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (!socket) return {};
+  return {std::move(socket), text_of(peer)};
 }
 
 std::uint16_t port_of(const Socket& listener) {

@@ -32,6 +32,16 @@ class Socket {
 /// @throws std::runtime_error with address, port and reason, e.g. "port 9464 on 127.0.0.1 is in use"
 [[nodiscard]] Socket listen_on(const std::string& address, std::uint16_t port);
 
+/// A client's connection.
+struct Accepted {
+  Socket socket;
+  /// As a number in text; of IPv6 the first 64 bits, which one customer or machine has.
+  std::string address;
+};
+
+/// The next client that waits. @return no socket, with errno set, if there is none
+[[nodiscard]] Accepted accept_from(const Socket& listener);
+
 /// The port that a listening socket has.
 [[nodiscard]] std::uint16_t port_of(const Socket& listener);
 

@@ -116,6 +116,11 @@ void for_each_key(Settings& settings, Visit&& visit) {
   visit("monitor.address", settings.monitor.address);
   visit("monitor.port", settings.monitor.port);
   visit("monitor.max_channel_series", settings.monitor.max_channel_series);
+  visit("monitor.tls.certificate_file", settings.monitor.tls.certificate_file);
+  visit("monitor.tls.key_file", settings.monitor.tls.key_file);
+  visit("monitor.auth.token_file", settings.monitor.auth.token_file);
+  visit("monitor.auth.users_file", settings.monitor.auth.users_file);
+  visit("monitor.allow_insecure", settings.monitor.allow_insecure);
   visit("stop.deadline_s", settings.stop_deadline_s);
   visit("log.level", settings.log_level);
 }

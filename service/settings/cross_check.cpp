@@ -190,6 +190,28 @@ class CrossCheck {
             "another file than noise.state_file", {"noise.state_file"});
   }
 
+  /// Whoever reaches the port sees every sensor: over a network nobody does unseen and unnamed by accident.
+  void check_monitor() {
+    const MonitorSettings& monitor = settings_.monitor;
+    const MonitorTlsSettings& tls = monitor.tls;
+    require(tls.certificate_file.empty() || !tls.key_file.empty(), "monitor.tls.key_file", tls.key_file,
+            "the key of monitor.tls.certificate_file", {"monitor.tls.certificate_file"});
+    require(tls.key_file.empty() || !tls.certificate_file.empty(), "monitor.tls.certificate_file",
+            tls.certificate_file, "the certificate of monitor.tls.key_file", {"monitor.tls.key_file"});
+    const std::string& address = monitor.address;
+    const bool local = address == "localhost" || address == "::1" || address.starts_with("127.");
+    const bool asks_who = !monitor.auth.token_file.empty() || !monitor.auth.users_file.empty();
+    const bool secure = !tls.certificate_file.empty() && asks_who;
+    require(!monitor.enabled || local || secure || monitor.allow_insecure, "monitor.address", address,
+            "one of this machine alone, such as 127.0.0.1; or monitor.tls together with monitor.auth, so "
+            "that others "
+            "can neither listen nor ask without a name; or monitor.allow_insecure: true, where something "
+            "else sees to "
+            "that",
+            {"monitor.enabled", "monitor.tls.certificate_file", "monitor.tls.key_file",
+             "monitor.auth.token_file", "monitor.auth.users_file", "monitor.allow_insecure"});
+  }
+
   void check_network(const fs::path& directory) {
     const fs::path file = network_file(settings_.bus, directory);
     std::error_code error;
@@ -280,6 +302,7 @@ void cross_check(const Settings& settings, const json& document, const fs::path&
   check.check_calibrations(directory);
   check.check_state_file(directory);
   check.check_published_file(directory);
+  check.check_monitor();
 }
 
 }  // namespace gyrod::settings

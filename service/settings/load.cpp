@@ -87,6 +87,10 @@ Outcome read_settings(std::string_view text, const fs::path& directory) {
   NoiseSettings& noise = outcome.settings.noise;
   noise.calibrations = resolved(noise.calibrations, directory).string();
   noise.state_file = resolved(noise.state_file, directory).string();
+  MonitorSettings& monitor = outcome.settings.monitor;
+  for (std::string* file : {&monitor.tls.certificate_file, &monitor.tls.key_file, &monitor.auth.token_file,
+                            &monitor.auth.users_file})
+    *file = resolved(*file, directory).string();
   std::string& published = outcome.settings.restart.published_file;
   published = resolved(published, directory).string();
   return outcome;

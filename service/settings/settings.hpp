@@ -143,11 +143,26 @@ struct RestartSettings {
   std::string published_file;
 };
 
+/// Files of the HTTP port (made absolute by loading); empty: not used.
+struct MonitorTlsSettings {
+  std::string certificate_file;
+  std::string key_file;
+};
+
+struct MonitorAuthSettings {
+  std::string token_file;
+  std::string users_file;
+};
+
 struct MonitorSettings {
   bool enabled = true;
   std::string address = "127.0.0.1";
   std::uint16_t port = 9464;
   std::size_t max_channel_series = 200;
+  MonitorTlsSettings tls;
+  MonitorAuthSettings auth;
+  /// Other machines may ask without TLS or without saying who they are.
+  bool allow_insecure = false;
 };
 
 struct Settings {

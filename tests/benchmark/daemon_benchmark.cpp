@@ -4,7 +4,7 @@
 ///   cmake --preset benchmark && cmake --build --preset benchmark --target daemon_benchmark gyrod
 ///   build/benchmark/daemon_benchmark build/benchmark/gyrod
 ///
-/// Takes about a minute. Method paper; for the estimates without look-ahead see path_benchmark.cpp. Added latency of a sample is what
+/// Takes about two minutes. Method paper; for the estimates without look-ahead see path_benchmark.cpp. Added latency of a sample is what
 /// the daemon adds to lag and hop: from the moment at
 /// which the sample that completed its hop was sent, to the moment at which the denoised sample is in a
 /// subscriber's hands.
@@ -21,6 +21,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "benchmark/http_abuse.hpp"
 #include "bus/domain.hpp"
 #include "bus/raw_writer.hpp"
 #include "bus/recorder.hpp"
@@ -129,6 +130,8 @@ double throughput(const bus::Domain& domain, std::size_t batch, std::size_t sens
 
 /// Sensors at 100 Hz in real time.
 void real_time(const bus::Domain& domain, pid_t daemon, std::size_t sensors, std::size_t seconds) {
+  static std::size_t run = 0;  // each has sensors of its own
+  ++run;
   const bus::BusOptions options;
   bus::RawWriter writer(domain, options, 1);
   bus::Recorder recorder(domain, options, options.topics.denoised, std::chrono::seconds{10});
@@ -143,7 +146,7 @@ void real_time(const bus::Domain& domain, pid_t daemon, std::size_t sensors, std
   std::vector<std::vector<Clock::time_point>> sent(sensors);
   const Usage before = usage_of(daemon);
   const Clock::time_point begin = Clock::now();
-  const auto name = [sensors](std::size_t s) { return sensor_name('r', 1000 * sensors + s); };
+  const auto name = [sensors](std::size_t s) { return sensor_name('r', 10'000 * run + 100 * sensors + s); };
   for (std::size_t n = 0; n < samples; ++n) {
     std::this_thread::sleep_until(
         begin + std::chrono::duration_cast<Clock::duration>(Seconds(static_cast<double>(n) / kRateHz)));
@@ -177,6 +180,12 @@ void real_time(const bus::Domain& domain, pid_t daemon, std::size_t sensors, std
               100.0 * (after.cpu_s - before.cpu_s) / elapsed, after.resident_mib, before.resident_mib);
 }
 
+/// What the log tells.
+std::uint16_t port_in(const std::string& log) {
+  const std::string before = "metrics at http://127.0.0.1:";
+  return static_cast<std::uint16_t>(std::stoi(log.substr(log.find(before) + before.size())));
+}
+
 int run(const std::string& binary) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("gyrod-benchmark-" + std::to_string(getpid()));
@@ -192,6 +201,15 @@ int run(const std::string& binary) {
     }
     const bus::Domain domain(kDomain, "loopback");
     real_time(domain, daemon.id(), 1, 10);
+    real_time(domain, daemon.id(), 30, 20);
+    {
+      HttpAbuse abuse(port_in(daemon.err()));
+      std::printf("the same, while HTTP clients mean no good:\n");
+      real_time(domain, daemon.id(), 30, 20);
+      std::printf("  %d connections; %d scrapes, of which %d failed\n", abuse.connections(), abuse.scrapes(),
+                  abuse.failed_scrapes());
+    }
+    std::printf("and quiet again:\n");
     real_time(domain, daemon.id(), 30, 20);
     std::printf("one sensor, singles: %.0f samples/s\n", throughput(domain, 1, 1, 60'000));
     std::printf("one sensor, batches of 32: %.0f samples/s\n", throughput(domain, 32, 1, 60'000));

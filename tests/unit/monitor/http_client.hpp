@@ -31,6 +31,7 @@ class HttpClient {
   }
 
   [[nodiscard]] bool connected() const { return connected_; }
+  [[nodiscard]] int descriptor() const { return socket_.descriptor(); }
 
   /// @return false if the other side has closed
   bool send(std::string_view bytes) const {
@@ -43,7 +44,10 @@ class HttpClient {
   }
 
   /// All that comes until the other side closes.
-  [[nodiscard]] std::string receive() const {
+  [[nodiscard]] std::string receive() const { return receive_until({}); }
+
+  /// The same, or until `mark` has come.
+  [[nodiscard]] std::string receive_until(std::string_view mark) const {
     std::string received;
     std::string piece(64U * 1024U, '\0');
     pollfd readable{socket_.descriptor(), POLLIN, 0};
@@ -51,6 +55,7 @@ class HttpClient {
       const ssize_t count = recv(socket_.descriptor(), piece.data(), piece.size(), 0);
       if (count <= 0) return received;
       received.append(piece, 0, static_cast<std::size_t>(count));
+      if (!mark.empty() && received.find(mark) != std::string::npos) return received;
     }
     throw std::runtime_error("the server neither answers nor closes");
   }
@@ -67,9 +72,11 @@ struct HttpAnswer {
 };
 
 /// Sends one request on a connection of its own and reads the answer.
-inline HttpAnswer ask(std::uint16_t port, const std::string& method, const std::string& path) {
+inline HttpAnswer ask(std::uint16_t port, const std::string& method, const std::string& path,
+                      const std::string& headers = {}) {
   const HttpClient client(port);
-  (void)client.send(method + " " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  (void)client.send(method + " " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + headers +
+                    "\r\n");
   const std::string all = client.receive();
   HttpAnswer answer;
   const std::size_t end = all.find("\r\n\r\n");

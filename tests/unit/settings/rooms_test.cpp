@@ -128,6 +128,10 @@ TEST(SettingsRooms, MonitorDefaultsAgree) {
   EXPECT_EQ(settings.address, room.address);
   EXPECT_EQ(settings.port, room.port);
   EXPECT_EQ(settings.max_channel_series, room.max_channel_series);
+  EXPECT_FALSE(room.access.uses_tls() || room.access.asks_who());
+  EXPECT_EQ(settings.tls.certificate_file + settings.tls.key_file, "");
+  EXPECT_EQ(settings.auth.token_file + settings.auth.users_file, "");
+  EXPECT_FALSE(settings.allow_insecure);
 }
 
 }  // namespace
