@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +13,7 @@
 #include "settings/document.hpp"
 #include "settings/enum_names.hpp"
 #include "settings/noise_calibration.hpp"
-#include "settings/topic_qos_check.hpp"
+#include "settings/qos_check.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -143,15 +142,8 @@ class CrossCheck {
   }
 
   void check_qos() {
-    const BusSettings& bus = settings_.bus;
-    check_liveliness("bus.input.liveliness", bus.input.qos);
-    check_liveliness("bus.output.liveliness", bus.output.qos);
-    check_liveliness("bus.ros2.input_liveliness", bus.ros2.input_qos);
-    check_liveliness("bus.ros2.output_liveliness", bus.ros2.output_qos);
-    check_written_partitions("bus.output.partitions", bus.output.qos.partitions);
-    check_written_partitions("bus.ros2.partitions", bus.ros2.input_qos.partitions);
-    for (const Mistake& mistake : mistakes_of_topic_qos(bus))
-      require(false, mistake.key, mistake.value, mistake.expected, {"bus.topics", "bus.ros2"});
+    for (const Mistake& mistake : qos_mistakes(settings_.bus))
+      require(false, mistake.key, mistake.value, mistake.expected, mistake.others);
   }
 
   /// Reads the calibrations: a start must not find out later.
@@ -251,23 +243,9 @@ class CrossCheck {
     }
   }
 
-  void check_liveliness(const std::string& key, const QosSettings& qos) {
-    const std::string lease = key + "_lease_s";
-    require(qos.liveliness == Liveliness::kAutomatic || qos.liveliness_lease_s > 0.0, lease,
-            qos.liveliness_lease_s,
-            "above 0, for " + key + " is \"" + std::string(name_of(qos.liveliness)) + "\"", {key});
-  }
-
-  void check_written_partitions(const std::string& key, const std::vector<std::string>& partitions) {
-    for (std::size_t i = 0; i < partitions.size(); ++i) {
-      require(partitions[i].find_first_of("*?") == std::string::npos, key + "[" + std::to_string(i) + "]",
-              partitions[i], "a name without '*' and '?', for gyrod writes there", {key});
-    }
-  }
-
   /// @param others the keys besides `key` that the rule depends on
   void require(bool holds, const std::string& key, const json& value, const std::string& expected,
-               std::initializer_list<std::string_view> others) {
+               const std::vector<std::string>& others) {
     const auto unknown = [this](std::string_view name) { return concerned(issues_, name); };
     if (holds || unknown(key) || std::any_of(others.begin(), others.end(), unknown)) return;
     const bool given = given_value(document_, key.substr(0, key.find('['))) != nullptr;

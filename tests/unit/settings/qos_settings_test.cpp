@@ -87,7 +87,7 @@ TEST(QosSettings, WhatASingleTopicCannotHaveIsRefused) {
   EXPECT_THAT(
       messages(R"({"topic_qos": [{"topic": "gyro/denoised", "partitions": ["car*"]}]})"),
       ElementsAre(
-          "bus.topic_qos[0].partitions is \"car*\"; expected a name without '*' and '?', for gyrod writes "
+          "bus.topic_qos[0].partitions[0] is \"car*\"; expected a name without '*' and '?', for gyrod writes "
           "there"));
   EXPECT_THAT(messages(R"({"topic_qos": [{"topic": "gyro/raw", "depth": 3}]})"),
               ElementsAre(::testing::HasSubstr("depth")));

@@ -1,9 +1,10 @@
-#include "settings/topic_qos_check.hpp"
+#include "settings/qos_check.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "ros2/names.hpp"
+#include "settings/enum_names.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -13,6 +14,12 @@ class Check {
   explicit Check(const BusSettings& bus) : bus_(bus) {}
 
   std::vector<Mistake> run() {
+    check_liveliness("bus.input.liveliness", bus_.input.qos);
+    check_liveliness("bus.output.liveliness", bus_.output.qos);
+    check_liveliness("bus.ros2.input_liveliness", bus_.ros2.input_qos);
+    check_liveliness("bus.ros2.output_liveliness", bus_.ros2.output_qos);
+    check_written("bus.output.partitions", bus_.output.qos.partitions);
+    check_written("bus.ros2.partitions", bus_.ros2.input_qos.partitions);
     for (std::size_t i = 0; i < bus_.topic_qos.size(); ++i)
       look_at("bus.topic_qos[" + std::to_string(i) + "]", bus_.topic_qos[i]);
     return std::move(mistakes_);
@@ -29,15 +36,26 @@ class Check {
             "a depth above 0; only the raw topics keep all");
     require(qos.liveliness != Liveliness::kManualByTopic || qos.liveliness_lease_s.value_or(0.0) > 0.0, key,
             "manual_by_topic", "a liveliness_lease_s above 0 with it");
-    if (is_read || !qos.partitions) return;
-    for (const std::string& name : *qos.partitions) {
-      require(name.find_first_of("*?") == std::string::npos, key + ".partitions", name,
-              "a name without '*' and '?', for gyrod writes there");
+    if (!is_read && qos.partitions) check_written(key + ".partitions", *qos.partitions);
+  }
+
+  void check_liveliness(const std::string& key, const QosSettings& qos) {
+    require(qos.liveliness == Liveliness::kAutomatic || qos.liveliness_lease_s > 0.0, key + "_lease_s",
+            qos.liveliness_lease_s,
+            "above 0, for " + key + " is \"" + std::string(name_of(qos.liveliness)) + "\"", {key});
+  }
+
+  void check_written(const std::string& key, const std::vector<std::string>& partitions) {
+    for (std::size_t i = 0; i < partitions.size(); ++i) {
+      require(partitions[i].find_first_of("*?") == std::string::npos, key + "[" + std::to_string(i) + "]",
+              partitions[i], "a name without '*' and '?', for gyrod writes there", {key});
     }
   }
 
-  void require(bool holds, const std::string& key, const std::string& value, const std::string& expected) {
-    if (!holds) mistakes_.push_back({key, value, expected});
+  /// @param others as of Mistake
+  void require(bool holds, const std::string& key, const nlohmann::json& value, const std::string& expected,
+               const std::vector<std::string>& others = {"bus.topics", "bus.ros2"}) {
+    if (!holds) mistakes_.push_back({key, value, expected, others});
   }
 
   [[nodiscard]] bool is_raw(const std::string& topic) const {
@@ -70,6 +88,6 @@ class Check {
 
 }  // namespace
 
-std::vector<Mistake> mistakes_of_topic_qos(const BusSettings& bus) { return Check(bus).run(); }
+std::vector<Mistake> qos_mistakes(const BusSettings& bus) { return Check(bus).run(); }
 
 }  // namespace gyrod::settings

@@ -1,8 +1,10 @@
-/// Rules for single topics' quality of service that the schema cannot state.
+/// Rules for the quality of service that the schema cannot state.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "settings/settings.hpp"
 
@@ -10,11 +12,12 @@ namespace gyrod::settings {
 
 struct Mistake {
   std::string key;  ///< e.g. "bus.topic_qos[2]"
-  std::string value;
+  nlohmann::json value;
   std::string expected;
+  std::vector<std::string> others = {};  ///< keys besides `key` that the rule depends on
 };
 
 /// In the order of the configuration; none where all is well.
-[[nodiscard]] std::vector<Mistake> mistakes_of_topic_qos(const BusSettings& bus);
+[[nodiscard]] std::vector<Mistake> qos_mistakes(const BusSettings& bus);
 
 }  // namespace gyrod::settings
