@@ -149,7 +149,7 @@ const vehicles = [
     overrides: [
       byName("Vehicle", toVehicle),
       byName("Answers", {
-        mappings: [{ type: "value", options: { 0: { text: "no", color: colourOf("silent"), index: 0 }, 1: { text: "yes", color: colourOf("ok"), index: 1 } } }],
+        mappings: [{ type: "value", options: { 0: { text: "no", color: colourOf("stuck"), index: 0 }, 1: { text: "yes", color: colourOf("ok"), index: 1 } } }],
         ...coloured,
       }),
       byName("Troubled", { thresholds: thresholds(1), ...coloured }),

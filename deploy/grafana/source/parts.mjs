@@ -1,19 +1,19 @@
-// What both dashboards are built of. Colours, letters and words of the states are those of the live page and of docs/health.md.
+// What both dashboards are built of. Colours of the states are those of the live page in the dark, in shades where several have one.
 export const kStates = [
-  { name: "ok", colour: "#23834f" },
-  { name: "warming_up", colour: "#5a6577" },
-  { name: "degraded", colour: "#7a6a00" },
-  { name: "lossy", colour: "#a86c00" },
-  { name: "drifting", colour: "#8a3fb8" },
-  { name: "noisy", colour: "#c2410c" },
-  { name: "saturated", colour: "#b3402e" },
-  { name: "stuck", colour: "#c0245e" },
-  { name: "silent", colour: "#8f1d1d" },
+  { name: "ok", colour: "#5cc98e" },
+  { name: "warming_up", colour: "#62aaff" },
+  { name: "degraded", colour: "#f7cf93" },
+  { name: "lossy", colour: "#f0b45a" },
+  { name: "drifting", colour: "#cf8d2c" },
+  { name: "noisy", colour: "#ff8a7a" },
+  { name: "saturated", colour: "#ef5f4c" },
+  { name: "stuck", colour: "#c93a2a" },
+  { name: "silent", colour: "#9aa6b8" },
 ];
-export const kDenoised = "#1264c8";
-export const kRaw = "#8b94a3";
+export const kDenoised = "#62aaff";
+export const kRaw = "#8490a2";
 const kWarn = colourOf("lossy");
-const kBad = colourOf("silent");
+const kBad = colourOf("stuck");
 const kDatasource = { type: "prometheus", uid: "${datasource}" };
 
 export function colourOf(state) {

@@ -11,7 +11,7 @@ const atAGlance = [
   stat({
     title: "gyrod",
     targets: [query(`max(gyrod_ready${of})`)],
-    mappings: [{ type: "value", options: { 0: { text: "not ready", color: colourOf("silent"), index: 0 }, 1: { text: "ready", color: colourOf("ok"), index: 1 } } }],
+    mappings: [{ type: "value", options: { 0: { text: "not ready", color: colourOf("stuck"), index: 0 }, 1: { text: "ready", color: colourOf("ok"), index: 1 } } }],
   }),
   stat({ title: "Up for", unit: "s", targets: [query(`max(gyrod_uptime_seconds${of})`)] }),
   stat({ title: "Version", text: "name", targets: [query(`gyrod_build_info${of}`, "{{version}}")] }),
