@@ -22,10 +22,10 @@ class Field {
   Field(const Json& object, std::string path) : value_(&object), path_(std::move(path)) {}
 
   [[nodiscard]] Field operator[](const char* key) const {
-    static const Json kNull;
+    static const Json none;
     if (!value_->is_object()) refuse(path_, "an object");
     const auto found = value_->find(key);
-    return {found == value_->end() ? kNull : *found, path_ + "." + key};
+    return {found == value_->end() ? none : *found, path_ + "." + key};
   }
   [[nodiscard]] Figure figure() const {
     if (value_->is_null()) return std::nullopt;
