@@ -146,6 +146,14 @@ SensorPage parse_sensors(std::string_view json) {
   return page;
 }
 
+std::vector<Event> parse_events(std::string_view json) {
+  const Json whole = parse(json);
+  std::vector<Event> events;
+  for (const Field& event : Field(whole, "events")["events"].list())
+    events.push_back({event["time_s"].figure().value_or(0.0), event["text"].text()});
+  return events;
+}
+
 std::string parse_error(std::string_view json) {
   const Json whole = Json::parse(json, nullptr, /*allow_exceptions=*/false);
   if (!whole.is_object() || !whole.contains("error") || !whole["error"].is_string()) return {};

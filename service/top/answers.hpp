@@ -74,9 +74,16 @@ struct SensorPage {
   std::vector<Sensor> sensors;
 };
 
+/// Something that happened: /api/v1/events.
+struct Event {
+  double time_s = 0.0;  ///< since 1970
+  std::string text;     ///< one plain sentence
+};
+
 /// @throws AnswerError
 [[nodiscard]] Status parse_status(std::string_view json);
 [[nodiscard]] SensorPage parse_sensors(std::string_view json);
+[[nodiscard]] std::vector<Event> parse_events(std::string_view json);
 /// The words of an answer that says what is wrong, or nothing.
 [[nodiscard]] std::string parse_error(std::string_view json);
 

@@ -17,9 +17,9 @@ const char* reason_of(httplib::Error error, bool too_long) {
     case httplib::Error::ConnectionTimeout:
       return "no connection within 3 s";
     case httplib::Error::Read:
-      return "no answer within 5 s, or one that breaks off";
+      return "no answer within 5 s, or one that breaks off: does it speak https?";
     case httplib::Error::SSLConnection:
-      return "no encrypted connection: does it speak https?";
+      return "no encrypted connection: does it speak http?";
     case httplib::Error::SSLLoadingCerts:
       return "the file of --ca-file cannot be read as certificates in PEM";
     case httplib::Error::SSLServerVerification:
@@ -48,6 +48,7 @@ Client::Client(const Address& address, const Credentials& credentials)
   http.set_read_timeout(kAnswer_s);
   http.set_write_timeout(kAnswer_s);
   http.set_keep_alive(true);
+  tells_who_ = !credentials.token.empty() || !credentials.user.empty();
   http.set_url_encode(false);  // done where the query is made
   if (!credentials.token.empty()) http.set_bearer_token_auth(credentials.token);
   if (!credentials.user.empty()) http.set_basic_auth(credentials.user, credentials.password);
@@ -60,6 +61,10 @@ std::string Client::status_text() { return get("/api/v1/status"); }
 
 std::string Client::sensors_text(const View& view, std::uint64_t offset, std::uint64_t limit) {
   return get(sensors_query(view, offset, limit));
+}
+
+std::string Client::events_text(std::uint64_t limit) {
+  return get("/api/v1/events?limit=" + std::to_string(limit));
 }
 
 void Client::stop() noexcept { connection_->http.stop(); }
@@ -77,16 +82,22 @@ std::string Client::get(const std::string& target) {
   constexpr int kOk = 200;
   constexpr int kWho = 401;
   constexpr int kNotYou = 403;
-  constexpr int kNoSuch = 404;
   if (result->status == kOk) return body;
-  const std::string words = parse_error(body);
-  const std::string said = std::to_string(result->status) + (words.empty() ? "" : ", " + words);
-  if (result->status == kWho || result->status == kNotYou)
-    throw Forbidden(url_ + " answers " + said + ": give --token-file or --user-file");
-  if (result->status == kNoSuch && words.empty())
-    throw Unreachable(url_ + " has no " + printable(target.substr(0, target.find('?'))) +
-                      ": is it a gyrod, and as new as this one?");
-  throw Unreachable(url_ + " answers " + said);
+  const std::string why = refusal(result->status, target, parse_error(body));
+  if (result->status == kWho || result->status == kNotYou) throw Forbidden(why);
+  throw Unreachable(why);
+}
+
+std::string Client::refusal(int status, const std::string& target, const std::string& words) const {
+  constexpr int kWho = 401;
+  constexpr int kNoSuch = 404;
+  if (status == kNoSuch && words.empty())
+    return url_ + " has no " + target.substr(0, target.find('?')) +
+           ": is it a gyrod, and as new as this one?";
+  const std::string said = url_ + " answers " + std::to_string(status) + (words.empty() ? "" : ", " + words);
+  if (status != kWho) return said;
+  return said + (tells_who_ ? ": it does not know the token or user that was given"
+                            : ": give --token-file or --user-file");
 }
 
 }  // namespace gyrod::top

@@ -43,6 +43,8 @@ class Client {
   // What is asked for, as the API's own text, 16 MiB at most. @throws Unreachable, Forbidden, AnswerError
   [[nodiscard]] std::string status_text();
   [[nodiscard]] std::string sensors_text(const View& view, std::uint64_t offset, std::uint64_t limit);
+  /// The newest, the last one last.
+  [[nodiscard]] std::string events_text(std::uint64_t limit);
 
   [[nodiscard]] const std::string& url() const noexcept { return url_; }
 
@@ -52,8 +54,11 @@ class Client {
  private:
   [[nodiscard]] std::string get(const std::string& target);
 
+  [[nodiscard]] std::string refusal(int status, const std::string& target, const std::string& words) const;
+
   std::string url_;
   std::string prefix_;
+  bool tells_who_ = false;
   struct Connection;
   std::unique_ptr<Connection> connection_;
 };

@@ -42,6 +42,7 @@ Picture Poller::ask(const View& view, std::uint64_t rows) {
   try {
     picture.status = parse_status(client_.status_text());
     picture.page = parse_sensors(client_.sensors_text(view, view.first, rows));
+    picture.events = parse_events(client_.events_text(kEventsShown));
   } catch (const std::exception& error) {
     picture.trouble = error.what();
   }

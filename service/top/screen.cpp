@@ -12,6 +12,7 @@ constexpr std::size_t kHeaderLines = 4;  // with the names of the columns
 constexpr std::size_t kDetailLines = 5;  // a rule, three axes, one more fact
 constexpr std::size_t kFooterLines = 1;
 constexpr std::size_t kRowsForDetails = 16;
+constexpr std::size_t kRowsForEvents = 28;
 
 constexpr Look kBold{Weight::kBold};
 constexpr Look kFaint{Weight::kFaint};
@@ -19,6 +20,8 @@ constexpr Look kFaint{Weight::kFaint};
 Look look_in(std::string_view health) { return {Weight::kBold, look_of(health).colour}; }
 
 bool has_details(Size size) noexcept { return size.rows >= kRowsForDetails; }
+
+std::size_t event_lines(Size size) noexcept { return size.rows >= kRowsForEvents ? kEventsShown : 0; }
 
 Line title(const Picture& picture) {
   Line line;
@@ -178,14 +181,15 @@ void add_sensors(std::vector<Line>& lines, const SensorPage& page, const View& v
     lines.push_back(sensor_line(page.sensors[n], view, size, page.offset + n == view.chosen));
   const Sensor* chosen = chosen_of(page, view);
   if (chosen == nullptr || !has_details(size)) return;
-  lines.resize(size.rows - kFooterLines - kDetailLines);
+  lines.resize(size.rows - kFooterLines - event_lines(size) - kDetailLines);
   append(lines, details(*chosen, view));
 }
 
 }  // namespace
 
 std::uint64_t sensor_rows(Size size) noexcept {
-  const std::size_t taken = kHeaderLines + kFooterLines + (has_details(size) ? kDetailLines : 0);
+  const std::size_t taken =
+      kHeaderLines + kFooterLines + event_lines(size) + (has_details(size) ? kDetailLines : 0);
   return size.rows > taken ? size.rows - taken : 1;
 }
 
@@ -200,7 +204,10 @@ std::vector<Line> screen(const Picture& picture, const View& view, Size size) {
     else if (picture.page)
       append(lines, nothing_to_show(picture, view));
   }
-  lines.resize(size.rows > kFooterLines ? size.rows - kFooterLines : 0);
+  const std::size_t shown = std::min(event_lines(size), picture.events.size());
+  lines.resize(size.rows > kFooterLines + shown ? size.rows - kFooterLines - shown : 0);
+  for (std::size_t n = picture.events.size() - shown; n < picture.events.size(); ++n)
+    lines.emplace_back().add(clock(picture.events[n].time_s) + "  " + picture.events[n].text, kFaint);
   lines.push_back(footer(picture, view));
   return lines;
 }

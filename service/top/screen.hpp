@@ -17,13 +17,17 @@ struct Picture {
   std::string url;
   std::optional<Status> status;
   std::optional<SensorPage> page;
-  std::string trouble;  ///< why nothing newer is known; empty: all is well
+  std::vector<Event> events;  ///< the newest, the last one last
+  std::string trouble;        ///< why nothing newer is known; empty: all is well
 };
 
 struct Size {
   std::size_t columns = 80;
   std::size_t rows = 24;
 };
+
+/// Events on a screen that is large enough.
+inline constexpr std::size_t kEventsShown = 4;
 
 /// Sensors that find room on a screen of that size.
 [[nodiscard]] std::uint64_t sensor_rows(Size size) noexcept;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <numbers>
@@ -78,6 +79,18 @@ std::string duration(Figure seconds) {
   constexpr double kMilli = 1e-3;
   if (!seconds) return "-";
   return *seconds < 1.0 ? with_digits(*seconds / kMilli, 3) + " ms" : with_digits(*seconds, 3) + " s";
+}
+
+std::string clock(double time_s) {
+  constexpr double kDay_s = 86400.0;
+  constexpr int kMinute_s = 60;
+  constexpr int kHour_s = 3600;
+  if (!std::isfinite(time_s)) return "--:--:--Z";
+  const int s = static_cast<int>(time_s - kDay_s * std::floor(time_s / kDay_s));
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%02d:%02d:%02dZ", s / kHour_s, s % kHour_s / kMinute_s,
+                s % kMinute_s);
+  return text.data();
 }
 
 std::string age(double seconds) {

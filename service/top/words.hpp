@@ -33,5 +33,7 @@ enum class RateUnit { kDegPerS, kRadPerS };
 [[nodiscard]] std::string duration(Figure seconds);
 /// "3 d 4 h", "4 h 12 min", "12 min", "40 s".
 [[nodiscard]] std::string age(double seconds);
+/// "04:05:06Z", of seconds since 1970.
+[[nodiscard]] std::string clock(double time_s);
 
 }  // namespace gyrod::top

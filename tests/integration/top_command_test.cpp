@@ -25,6 +25,7 @@ class Server {
  public:
   Server() {
     answer("/api/v1/status", status_json());
+    answer("/api/v1/events", events_json());
     port_ = http_.bind_to_any_port("127.0.0.1");
     thread_ = std::thread([this] { http_.listen_after_bind(); });
   }

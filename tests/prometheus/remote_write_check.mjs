@@ -2,7 +2,7 @@
 // Environment besides the rig's: GYROD_VICTORIA_METRICS.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { withoutCommentSigns } from "./commented.mjs";
+import { withParts } from "./commented.mjs";
 import { hasty, writeHastyRules } from "./hasty_rules.mjs";
 import { Rig, ask, eventually, freePort } from "./rig.mjs";
 
@@ -27,9 +27,9 @@ before(async () => {
     return (await fetch(`${victoria}/health`).catch(() => ({ ok: false }))).ok;
   });
   const daemon = await rig.daemon("bench");
-  // As somebody does who follows the file's own advice; but that the DNS has no domain fleet.example.
+  // As somebody does who follows the file's own advice.
   prometheus = await rig.prometheus((text) =>
-    hasty(withoutCommentSigns(text).replace(/ {2}- job_name: gyrod-dns\n(?: {4}.*\n)*/, "").replaceAll("http://127.0.0.1:8428", victoria)),
+    hasty(withParts(text, "remote_write:").replaceAll("http://127.0.0.1:8428", victoria)),
   );
   rig.discover(daemon);
   rig.gyrod("drive", "simulate", "--motion", "drive", "--speed", "5", "--batch", "5", "--config", daemon.config);

@@ -33,4 +33,9 @@ inline std::string sensors_json(const std::string& rows, int count, int offset =
          std::to_string(offset) + R"(, "channels": [)" + rows + "]}";
 }
 
+inline std::string events_json() {
+  return R"({"events": [{"id": 7, "time_s": 86400.0, "text": "first is ok"},
+    {"id": 8, "time_s": 90061.9, "text": "front is noisy\u001b[2J"}], "first_id": 7, "last_id": 8})";
+}
+
 }  // namespace gyrod::testing

@@ -8,6 +8,7 @@
 namespace gyrod::top {
 namespace {
 
+using gyrod::testing::events_json;
 using gyrod::testing::sensor_json;
 using gyrod::testing::sensors_json;
 using gyrod::testing::status_json;
@@ -19,6 +20,7 @@ Picture picture_of(const std::string& rows, int count) {
   return {.url = "http://car7:9464",
           .status = parse_status(status_json()),
           .page = parse_sensors(sensors_json(rows, count)),
+          .events = parse_events(events_json()),
           .trouble = {}};
 }
 
@@ -68,8 +70,16 @@ TEST(Screen, KeepsWhatWasKnownBesideTheTrouble) {
   Picture picture = picture_of(sensor_json("front", "ok"), 1);
   picture.trouble = "http://car7:9464: no connection within 3 s";
   EXPECT_THAT(text_of(picture), AllOf(HasSubstr("front"), HasSubstr("no connection within 3 s")));
-  EXPECT_THAT(text_of({.url = "http://car7:9464", .status = {}, .page = {}, .trouble = "nobody there"}),
-              AllOf(HasSubstr("gyrod at http://car7:9464"), HasSubstr("nobody there")));
+  EXPECT_THAT(
+      text_of({.url = "http://car7:9464", .status = {}, .page = {}, .events = {}, .trouble = "nobody there"}),
+      AllOf(HasSubstr("gyrod at http://car7:9464"), HasSubstr("nobody there")));
+}
+
+TEST(Screen, TellsWhatHappenedWhereThereIsRoom) {
+  const Picture picture = picture_of(sensor_json("front", "ok"), 1);
+  EXPECT_THAT(text_of(picture, {}, {80, 28}),
+              AllOf(HasSubstr("\n01:01:01Z  front is noisy?[2J\nq quit"), HasSubstr("z  ok")));
+  EXPECT_THAT(text_of(picture, {}, {80, 27}), Not(HasSubstr("is noisy")));
 }
 
 TEST(Screen, ChangesItsUnit) {
