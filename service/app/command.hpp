@@ -26,5 +26,6 @@ void add_allan(CLI::App& parser, Action& chosen);
 void add_navigate(CLI::App& parser, Action& chosen);
 void add_calibrate(CLI::App& parser, Action& chosen);
 void add_evaluate(CLI::App& parser, Action& chosen);
+void add_top(CLI::App& parser, Action& chosen);
 
 }  // namespace gyrod::app

@@ -45,8 +45,9 @@ int parse_and_act(int argc, const char* const* argv) {
   parser.require_subcommand(1);
   parser.footer(std::string("gyrod SUBCOMMAND --help explains one, with examples.\n") + kExitCodesHelp);
   Action chosen;
-  for (const auto add : {add_run, add_validate, add_denoise, add_decompose, add_allan, add_calibrate,
-                         add_navigate, add_report, add_evaluate, add_replay, add_record, add_simulate})
+  for (const auto add :
+       {add_run, add_validate, add_denoise, add_decompose, add_allan, add_calibrate, add_navigate, add_report,
+        add_evaluate, add_replay, add_record, add_simulate, add_top})
     add(parser, chosen);
   const std::string unknown = unknown_command(parser, argc, argv);
   if (!unknown.empty()) {

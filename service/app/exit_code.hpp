@@ -10,16 +10,20 @@ enum ExitCode : int {
   kWrongSettings = 3,  ///< the configuration file cannot be read or has errors
   kFileTrouble =
       4,  ///< a recording or calibration cannot be read or understood, or an output cannot be written
-  kUnavailable = 5,    ///< DDS or the HTTP port refuses
-  kIncomplete = 6,     ///< done, but data are missing: a gap, nobody there, a stop that had to hurry
-  kNotAllowed = 7,     ///< a certificate, key, token or password file is no good, or DDS permissions forbid it
+  kUnavailable = 5,  ///< DDS or the HTTP port refuses; top: no answer
+  kIncomplete = 6,   ///< done, but data are missing: a gap, nobody there, a stop that had to hurry
+  kNotAllowed =
+      7,  ///< a certificate, key, token or password file is no good, or DDS or HTTP permissions forbid it
+  kTroubled = 8,       ///< top --once: gyrod is not ready, or a sensor is troubled
   kInterrupted = 130,  ///< Ctrl-C or SIGTERM ended it before it was done (128 + SIGINT, as shells count)
 };
 
 /// The codes in words, for the end of the help text.
 inline constexpr const char* kExitCodesHelp =
     "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 wrong configuration; 4 a file cannot be read,\n"
-    "understood or written; 5 DDS or the HTTP port refuses; 6 done, but data are missing;\n"
-    "7 a certificate, key, token or password file is no good, or DDS permissions forbid it; 130 interrupted.";
+    "understood or written; 5 DDS or the HTTP port refuses, or nobody answers there; 6 done, but data are\n"
+    "missing; 7 a certificate, key, token or password file is no good, or DDS or HTTP permissions forbid "
+    "it;\n"
+    "8 top --once: gyrod is not ready, or a sensor is troubled; 130 interrupted.";
 
 }  // namespace gyrod::app

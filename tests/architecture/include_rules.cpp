@@ -44,8 +44,9 @@ const std::vector<Room>& rooms() {
       {"files", {"core/", "stream"}, {"zlib.h", "fcntl.h", "sys/", "unistd.h"}},
       {"web", {}, {}},
       {"report", {"core/", "web"}, {"nlohmann/"}},
+      {"top", {"stream"}, {"httplib.h", "nlohmann/", "poll.h", "sys/", "termios.h", "unistd.h"}},
       {"app",
-       {"core/", "stream", "ros2", "fleet", "bus", "monitor", "settings", "files", "web", "report"},
+       {"core/", "stream", "ros2", "fleet", "bus", "monitor", "settings", "files", "web", "report", "top"},
        {"CLI/", "Eigen/", "fcntl.h", "nlohmann/", "spdlog/", "systemd/", "sys/", "unistd.h"}}};
   return table;
 }

@@ -77,6 +77,7 @@ class Rig : public ::testing::Test {
 
   [[nodiscard]] std::uint32_t domain_id() const noexcept { return domain_; }
   [[nodiscard]] std::string config() const { return path("gyrod.json"); }
+  [[nodiscard]] const std::string& binary() const noexcept { return binary_; }
 
  private:
   ScratchFolder folder_;
