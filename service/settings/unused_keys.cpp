@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <map>
 #include <string_view>
-#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
-#include "settings/binding.hpp"
-#include "settings/enum_names.hpp"
+#include "settings/dump.hpp"
 
 namespace gyrod::settings {
 namespace {
@@ -22,24 +18,11 @@ constexpr std::array<std::string_view, 5> kOfPaper = {"denoise.scheme", "denoise
 constexpr std::array<std::string_view, 3> kOfJoint = {"denoise.max_signal_hz", "bus.topics.realtime",
                                                       "bus.topics.realtime_batch"};
 
-/// Every key's value as the configuration would write it.
-std::map<std::string, json, std::less<>> values(Settings settings) {
-  std::map<std::string, json, std::less<>> all;
-  for_each_key(settings, [&all](std::string_view key, const auto& member) {
-    if constexpr (std::is_enum_v<std::decay_t<decltype(member)>>) {
-      all.emplace(key, name_of(member));
-    } else {
-      all.emplace(key, member);
-    }
-  });
-  return all;
-}
-
 }  // namespace
 
 std::vector<std::string> unused_keys(const Settings& settings) {
-  const auto given = values(settings);
-  const auto defaults = values({});
+  const auto given = values_of(settings);
+  const auto defaults = values_of({});
   const bool is_joint = settings.denoise.method == Method::kJoint;
   std::vector<std::string> lines;
   const auto note = [&](std::string_view key) {
