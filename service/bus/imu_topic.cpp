@@ -20,6 +20,11 @@ ImuTopic::ImuTopic(const Domain& domain, std::string name, const BusOptions& opt
                       imu_writer_qos(for_topic(options, outputs_.realtime).ros2));
 }
 
+void ImuTopic::add_matched_readers(std::vector<TopicReaders>& all) const {
+  all.push_back({outputs_.denoised, denoised_.matched_readers()});
+  if (realtime_) all.push_back({outputs_.realtime, realtime_->matched_readers()});
+}
+
 bool ImuTopic::hold(const Imu& message) noexcept {
   const std::lock_guard lock(mutex_);
   if (HeldMessages::frame_id_of(message).size() > HeldMessages::kMaxFrameIdLength) {

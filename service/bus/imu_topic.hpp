@@ -11,6 +11,7 @@
 #include "bus/domain.hpp"
 #include "bus/held_messages.hpp"
 #include "bus/input_reader.hpp"
+#include "bus/topic_readers.hpp"
 #include "bus/topic_writer.hpp"
 
 namespace gyrod::bus {
@@ -36,6 +37,9 @@ class ImuTopic {
   [[nodiscard]] const ros2::Outputs& outputs() const noexcept { return outputs_; }
   [[nodiscard]] InputReader<Imu>& reader() noexcept { return reader_; }
   [[nodiscard]] std::size_t matched_writers() const noexcept { return reader_.matched().current_count; }
+
+  /// Of the topics that are written.
+  void add_matched_readers(std::vector<TopicReaders>& all) const;
 
   /// Keeps a copy of a message until its denoised sample is published. @return false if the message is not taken, counted
   [[nodiscard]] bool hold(const Imu& message) noexcept;

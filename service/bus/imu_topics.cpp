@@ -87,6 +87,7 @@ ImuTopicsSnapshot ImuTopics::snapshot() const {
   impl_->for_each([&snapshot](const ImuTopic& topic) {
     const ImuCounts counts = topic.counts();
     ++snapshot.topics;
+    topic.add_matched_readers(snapshot.matched_readers);
     snapshot.matched_writers += topic.matched_writers();
     snapshot.malformed_messages += counts.malformed;
     snapshot.dropped_messages += counts.dropped;

@@ -7,10 +7,12 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "bus/broken_promises.hpp"
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
+#include "bus/topic_readers.hpp"
 #include "stream/sample.hpp"
 
 namespace gyrod::bus {
@@ -21,10 +23,11 @@ struct ImuTopicsSnapshot {
   std::size_t matched_writers = 0;  ///< publishers that send to them
   std::uint64_t refused_topics =
       0;  ///< of a pattern, and not opened: too many, too long a name, outputs of another, or DDS refused
-  std::uint64_t malformed_messages = 0;  ///< too long a frame id
-  std::uint64_t dropped_messages = 0;    ///< no place to wait for the denoised rates
-  std::uint64_t write_errors = 0;        ///< messages that DDS did not take
-  BrokenPromises broken_promises;        ///< of publishers
+  std::uint64_t malformed_messages = 0;            ///< too long a frame id
+  std::uint64_t dropped_messages = 0;              ///< no place to wait for the denoised rates
+  std::uint64_t write_errors = 0;                  ///< messages that DDS did not take
+  std::vector<TopicReaders> matched_readers = {};  ///< of each output topic
+  BrokenPromises broken_promises;                  ///< of publishers
 };
 
 /// Every open topic with its reader, its writers and the messages that wait for their denoised rates. A topic stays open as long as

@@ -27,6 +27,7 @@ class Publisher::Impl {
  public:
   Impl(const Domain& domain, const BusOptions& options)
       : domain_(domain),
+        names_(options.topics),
         max_batch_samples_(options.max_batch_samples),
         denoised_(domain, options.topics.denoised, options.topics.denoised_batch, options),
         reports_(domain.participant(), options.topics.noise,
@@ -99,6 +100,22 @@ class Publisher::Impl {
     return write_errors_.load(std::memory_order_relaxed);
   }
 
+  [[nodiscard]] std::vector<TopicReaders> matched_readers() const {
+    std::vector<TopicReaders> all;
+    const auto add = [&all](const std::string& topic, const auto& writer) {
+      all.push_back({topic, writer.matched_readers()});
+    };
+    add(names_.denoised, denoised_.singles);
+    add(names_.denoised_batch, denoised_.batches);
+    if (realtime_) {
+      add(names_.realtime, realtime_->singles);
+      add(names_.realtime_batch, realtime_->batches);
+    }
+    add(names_.noise, reports_);
+    add(names_.health, health_);
+    return all;
+  }
+
   [[nodiscard]] dds_entity_t denoised_writer() const noexcept { return denoised_.singles.get(); }
 
  private:
@@ -155,6 +172,7 @@ class Publisher::Impl {
   }
 
   Domain domain_;
+  TopicNames names_;
   std::size_t max_batch_samples_;
   Topics denoised_;
   std::optional<Topics> realtime_;
@@ -198,6 +216,7 @@ bool Publisher::wait_for_acknowledgements(std::chrono::milliseconds timeout) noe
 void Publisher::assert_liveliness() const noexcept { impl_->assert_liveliness(); }
 
 std::uint64_t Publisher::write_errors() const noexcept { return impl_->write_errors(); }
+std::vector<TopicReaders> Publisher::matched_readers() const { return impl_->matched_readers(); }
 std::int32_t Publisher::denoised_writer() const noexcept { return impl_->denoised_writer(); }
 
 }  // namespace gyrod::bus

@@ -6,9 +6,11 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
+#include "bus/topic_readers.hpp"
 #include "stream/health.hpp"
 #include "stream/report.hpp"
 #include "stream/sample.hpp"
@@ -63,6 +65,9 @@ class Publisher {
 
   /// Messages that DDS did not take.
   [[nodiscard]] std::uint64_t write_errors() const noexcept;
+
+  /// Of each topic that is written here.
+  [[nodiscard]] std::vector<TopicReaders> matched_readers() const;
 
   /// The DDS handle of the writer of single denoised samples. For the other classes of bus/.
   [[nodiscard]] std::int32_t denoised_writer() const noexcept;

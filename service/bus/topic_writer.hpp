@@ -36,12 +36,15 @@ class TopicWriter {
 
   void flush() const noexcept { dds_write_flush(writer_.get()); }
 
-  /// Whether anyone listens: readers that match in type and QoS.
-  [[nodiscard]] bool has_readers() const noexcept {
+  /// Readers that match in type and QoS.
+  [[nodiscard]] std::size_t matched_readers() const noexcept {
     dds_publication_matched_status_t status{};
     (void)dds_get_publication_matched_status(writer_.get(), &status);
-    return status.current_count > 0;
+    return status.current_count;
   }
+
+  /// Whether anyone listens.
+  [[nodiscard]] bool has_readers() const noexcept { return matched_readers() > 0; }
 
   /// Tells the readers that this writer has no more of the sensor, and forgets it. @pre fits_wire(sensor)
   /// @return DDS_RETCODE_OK, or why that could not be written

@@ -190,8 +190,22 @@ EngineSnapshot Engine::Impl::snapshot() const {
 
 std::vector<ChannelSnapshot> Engine::Impl::channels(std::size_t limit) const {
   std::vector<ChannelSnapshot> all;
+  all.reserve(std::min(limit, registry_.size()));
   registry_.for_each(limit, [&all](const Channel& channel) { all.push_back(channel.snapshot()); });
   return all;
+}
+
+void Engine::Impl::visit_channels(std::size_t limit,
+                                  const std::function<void(const ChannelSnapshot&)>& visit) const {
+  std::optional<ChannelSnapshot> shown;
+  const auto take = [&shown](const Channel& channel) { shown = channel.snapshot(); };
+  for (std::size_t i = 0; i < limit && registry_.look_at(i, take); ++i) visit(*shown);
+}
+
+std::optional<ChannelSnapshot> Engine::Impl::channel(std::string_view sensor) const {
+  std::optional<ChannelSnapshot> shown;
+  registry_.look_at(sensor, [&shown](const Channel& channel) { shown = channel.snapshot(); });
+  return shown;
 }
 
 Engine::Engine(EngineOptions options, MethodFactory method, Sink& sink, Clock clock)
@@ -213,6 +227,13 @@ bool Engine::stop(std::chrono::milliseconds deadline) { return impl_->stop(deadl
 void Engine::wait_idle() { impl_->wait_idle(); }
 EngineSnapshot Engine::snapshot() const { return impl_->snapshot(); }
 std::vector<ChannelSnapshot> Engine::channels(std::size_t limit) const { return impl_->channels(limit); }
+void Engine::visit_channels(std::size_t limit,
+                            const std::function<void(const ChannelSnapshot&)>& visit) const {
+  impl_->visit_channels(limit, visit);
+}
+std::optional<ChannelSnapshot> Engine::channel(std::string_view sensor) const {
+  return impl_->channel(sensor);
+}
 const EngineOptions& Engine::options() const noexcept { return impl_->options(); }
 
 }  // namespace gyrod::stream

@@ -150,6 +150,11 @@ class Engine {
   [[nodiscard]] EngineSnapshot snapshot() const;
   /// Every channel in the order of opening; `limit` bounds the copy.
   [[nodiscard]] std::vector<ChannelSnapshot> channels(std::size_t limit) const;
+  /// The same one by one, without room for all at once. No lock is held while `visit` works: one that closes meanwhile may hide
+  /// others from this call.
+  void visit_channels(std::size_t limit, const std::function<void(const ChannelSnapshot&)>& visit) const;
+  /// None where there is no such channel.
+  [[nodiscard]] std::optional<ChannelSnapshot> channel(std::string_view sensor) const;
   [[nodiscard]] const EngineOptions& options() const noexcept;
 
  private:

@@ -37,6 +37,8 @@ class Engine::Impl {
   void wait_idle();
   [[nodiscard]] EngineSnapshot snapshot() const;
   [[nodiscard]] std::vector<ChannelSnapshot> channels(std::size_t limit) const;
+  void visit_channels(std::size_t limit, const std::function<void(const ChannelSnapshot&)>& visit) const;
+  [[nodiscard]] std::optional<ChannelSnapshot> channel(std::string_view sensor) const;
   [[nodiscard]] const EngineOptions& options() const noexcept { return options_; }
 
  private:

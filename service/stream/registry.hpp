@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "stream/channel.hpp"
@@ -39,6 +40,23 @@ class Registry {
   void for_each(std::size_t limit, const Visit& visit) const {
     const std::shared_lock lock(mutex_);
     for (std::size_t i = 0; i < channels_.size() && i < limit; ++i) visit(*channels_[i]);
+  }
+
+  /// Calls visit(const Channel&) for the one at this place in the order of opening, while it cannot be removed.
+  /// @return false where there is none
+  template <typename Visit>
+  bool look_at(std::size_t place, const Visit& visit) const {
+    const std::shared_lock lock(mutex_);
+    if (place >= channels_.size()) return false;
+    visit(std::as_const(*channels_[place]));
+    return true;
+  }
+  /// The same of a sensor's.
+  template <typename Visit>
+  void look_at(std::string_view sensor, const Visit& visit) const {
+    const std::shared_lock lock(mutex_);
+    if (const auto found = by_sensor_.find(sensor); found != by_sensor_.end())
+      visit(std::as_const(*found->second));
   }
 
  private:
