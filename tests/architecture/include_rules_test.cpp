@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(LibraryInTheWrongRoom, Forbidden,
                          testing::Values(Planted{"stream/engine.cpp", "<dds/dds.h>"},
                                          Planted{"app/service.cpp", "<dds/dds.h>"},
                                          Planted{"bus/log.cpp", "<spdlog/spdlog.h>"},
-                                         Planted{"monitor/monitor.cpp", "<nlohmann/json.hpp>"},
+                                         Planted{"live/live.cpp", "<nlohmann/json.hpp>"},
                                          Planted{"files/csv_row.cpp", "<Eigen/Core>"}));
 
 INSTANTIATE_TEST_SUITE_P(NotAPathFromService, Forbidden,

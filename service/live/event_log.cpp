@@ -1,0 +1,125 @@
+#include "live/event_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace gyrod::live {
+namespace {
+
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  const int size = std::snprintf(text.data(), text.size(), "%.4g", value);
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
+std::string sentence(std::string_view sensor, const HealthChange& change) {
+  std::string text(sensor);
+  if (change.axis) text += std::string(" axis ") + stream::kAxisNames[*change.axis];
+  text += " is ";
+  text += stream::name_of(change.to);
+  text += ", before ";
+  text += stream::name_of(change.from);
+  if (change.to == stream::Health::kOk) return text + ".";
+  const std::string unit = unit_of(change.to).empty() ? "" : " " + std::string(unit_of(change.to));
+  return text + " (" + short_number(change.value) + unit + " against " + short_number(change.limit) + unit +
+         ").";
+}
+
+bool changed(const stream::SensorHealth& before, const stream::SensorHealth& now, std::size_t axis) {
+  return before.axis[axis].state != now.axis[axis].state;
+}
+
+bool all_alike(const stream::SensorHealth& before, const stream::SensorHealth& now) {
+  const auto same = [](const stream::SensorHealth& health) {
+    return std::ranges::all_of(
+        health.axis, [&](const stream::AxisHealth& axis) { return axis.state == health.axis[0].state; });
+  };
+  return same(before) && same(now);
+}
+
+}  // namespace
+
+std::string_view unit_of(stream::Health state) noexcept {
+  switch (state) {
+    case stream::Health::kSilent:
+    case stream::Health::kStuck:
+    case stream::Health::kSaturated:
+      return "s";
+    case stream::Health::kDrifting:
+      return "rad/s";
+    case stream::Health::kWarmingUp:
+      return "samples";
+    case stream::Health::kOk:
+    case stream::Health::kDegraded:
+    case stream::Health::kLossy:
+    case stream::Health::kNoisy:
+      break;
+  }
+  return "";
+}
+
+void EventLog::add_health(double time_s, std::string_view sensor, const stream::SensorHealth& before,
+                          const stream::SensorHealth& now) {
+  const bool together = all_alike(before, now);
+  for (std::size_t axis = 0; axis < (together ? 1 : stream::kAxes); ++axis) {
+    if (!changed(before, now, axis)) continue;
+    const stream::AxisHealth& is = now.axis[axis];
+    const HealthChange change{.axis = together ? std::nullopt : std::optional(axis),
+                              .from = before.axis[axis].state,
+                              .to = is.state,
+                              .value = is.value,
+                              .limit = is.limit};
+    push({.id = 0,
+          .time_s = time_s,
+          .sensor = std::string(sensor),
+          .health = change,
+          .text = sentence(sensor, change)});
+  }
+}
+
+void EventLog::add(double time_s, std::string_view sensor, std::string text) {
+  push({.id = 0,
+        .time_s = time_s,
+        .sensor = std::string(sensor),
+        .health = std::nullopt,
+        .text = std::move(text)});
+}
+
+void EventLog::push(Event event) {
+  const std::lock_guard lock(mutex_);
+  if (events_.size() == kCapacity) events_.pop_front();
+  event.id = last_id_ + 1;
+  events_.push_back(std::move(event));
+  ++last_id_;
+}
+
+EventLog::Page EventLog::read(const Query& query) const {
+  const std::lock_guard lock(mutex_);
+  Page page;
+  page.last_id = last_id_;
+  page.first_id = events_.empty() ? 0 : events_.front().id;
+  const auto wanted = [&query](const Event& event) {
+    return query.sensor.empty() || event.sensor == query.sensor;
+  };
+  const auto begin = std::ranges::upper_bound(events_, query.after, {}, &Event::id);
+  if (query.newest) {
+    for (auto at = events_.end(); at != begin && page.events.size() < query.limit;) {
+      if (wanted(*--at)) page.events.push_back(*at);
+    }
+    std::ranges::reverse(page.events);
+    return page;
+  }
+  for (auto at = begin; at != events_.end() && page.events.size() < query.limit; ++at) {
+    if (wanted(*at)) page.events.push_back(*at);
+  }
+  return page;
+}
+
+std::uint64_t EventLog::last_id() const {
+  const std::lock_guard lock(mutex_);
+  return last_id_;
+}
+
+}  // namespace gyrod::live

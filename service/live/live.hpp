@@ -1,0 +1,27 @@
+/// What people who look at a running gyrod see and the engine itself has no use for.
+#pragma once
+
+#include <cstddef>
+
+#include "live/event_log.hpp"
+#include "live/noise_history.hpp"
+#include "live/recent.hpp"
+#include "live/tap.hpp"
+#include "stream/engine.hpp"
+
+namespace gyrod::live {
+
+struct Live {
+  EventLog events;
+  NoiseHistory noise;
+  Recent recent;
+  Tap tap;
+
+  /// To be called about once a second, by one thread. @param now_s of a steady clock
+  void tick(double now_s, const stream::Engine& engine);
+
+ private:
+  double next_round_s_ = 0.0;
+};
+
+}  // namespace gyrod::live
