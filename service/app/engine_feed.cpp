@@ -22,7 +22,9 @@ std::size_t EngineInlet::push(std::string_view sensor, std::span<const stream::S
     succession_.watch(sensor, samples.back().stamp_ns, now_ns());
   const std::size_t foreign = served ? served_before(sensor, samples, now_ns()) : samples.size();
   if (foreign > 0) foreign_.fetch_add(foreign, std::memory_order_relaxed);
-  return foreign < samples.size() ? engine_.push(sensor, samples.subspan(foreign)) : 0;
+  if (foreign == samples.size()) return 0;
+  tap_.on_raw(sensor, samples.subspan(foreign));
+  return engine_.push(sensor, samples.subspan(foreign));
 }
 
 /// Samples at the front that the daemon before this one may have served.

@@ -10,6 +10,7 @@
 #include "bus/subscriber.hpp"
 #include "fleet/roster.hpp"
 #include "fleet/succession.hpp"
+#include "live/tap.hpp"
 #include "stream/engine.hpp"
 
 namespace gyrod::app {
@@ -17,7 +18,7 @@ namespace gyrod::app {
 /// The engine takes samples from one thread at a time; gyrod's own topics and those of ROS 2 have a thread each.
 class EngineInlet {
  public:
-  explicit EngineInlet(stream::Engine& engine) : engine_(engine) {}
+  EngineInlet(stream::Engine& engine, live::Tap& tap) : engine_(engine), tap_(tap) {}
   /// As Engine::push(), of sensors that are served here.
   std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   void end(std::string_view sensor) noexcept;
@@ -39,6 +40,7 @@ class EngineInlet {
                                           std::int64_t now) noexcept;
 
   stream::Engine& engine_;
+  live::Tap& tap_;
   fleet::ServingRule rule_{.own = {}, .active = true};
   fleet::Succession succession_;
   std::atomic<std::uint64_t> foreign_{0};

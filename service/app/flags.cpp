@@ -1,5 +1,6 @@
 #include "app/flags.hpp"
 
+#include <filesystem>
 #include <sstream>
 
 #include "settings/load.hpp"
@@ -43,6 +44,15 @@ settings::Settings BusFlags::load() const {
   if (network) settings.bus.network = *network;
   if (security) settings.bus.security.folder = *security;
   return settings;
+}
+
+std::string BusFlags::text() const {
+  std::string text;
+  if (!config.empty()) text += " --config " + std::filesystem::absolute(config).string();
+  if (domain) text += " --domain " + std::to_string(*domain);
+  if (network) text += " --network " + *network;
+  if (security) text += " --security " + std::filesystem::absolute(*security).string();
+  return text;
 }
 
 void RecordingFlags::add_to(CLI::App& command) {

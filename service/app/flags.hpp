@@ -25,6 +25,8 @@ struct BusFlags {
   /// The configuration file's settings, or the defaults where none is named, with the flags on top.
   /// @throws settings::SettingsError
   [[nodiscard]] settings::Settings load() const;
+  /// The same flags as text, "" or " --domain 3": for a command that is to be on the same bus.
+  [[nodiscard]] std::string text() const;
 };
 
 /// How a recording is read.

@@ -175,7 +175,7 @@ void serve(Service& service, SecurityLog& security, Interrupt& interrupt) {
 int run(const BusFlags& flags, Interrupt& interrupt) {
   const settings::Settings settings = flags.load();
   const LogScope log(settings.log_level);
-  Service service(settings);
+  Service service(settings, "gyrod simulate --motion drive" + flags.text());
   service.start();
   announce(settings, service);
   (void)sd_notify(0, "READY=1\nSTATUS=denoising");

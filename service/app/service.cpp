@@ -1,6 +1,7 @@
 #include "app/service.hpp"
 
 #include <algorithm>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "app/errors.hpp"
 #include "app/options.hpp"
 #include "bus/log.hpp"
+#include "settings/dump.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -32,6 +34,16 @@ void log_health(std::string_view sensor, const stream::SensorHealth& before,
               worst->limit);
 }
 
+/// An event of what becomes of a sensor.
+void tell(live::Live& live, std::string_view sensor, const char* what) noexcept {
+  const std::chrono::duration<double> since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  try {
+    live.events.add(since_epoch.count(), sensor, std::string(sensor) + " " + what + ".");
+  } catch (const std::bad_alloc&) {
+    return;  // an event less
+  }
+}
+
 /// Time for readers to take one cache of messages: 50 000 samples a second at the default depth.
 constexpr std::chrono::milliseconds kBreath{20};
 
@@ -52,6 +64,7 @@ void ReleaseToBus::in_parts(std::span<const stream::DenoisedSample> samples,
 
 void ReleaseToBus::on_samples(std::string_view sensor,
                               std::span<const stream::DenoisedSample> samples) noexcept {
+  live_.tap.on_denoised(sensor, samples);
   if (imu_topics_.publish(sensor, samples)) return;
   if (standby_ != nullptr) return standby_->release(sensor, samples);
   publish(sensor, samples);
@@ -81,10 +94,12 @@ void ReleaseToBus::end(std::string_view sensor) noexcept {
 }
 
 void ReleaseToBus::on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
+  live_.tap.on_report(sensor, report);
   if (standby_ == nullptr || standby_->publishes(sensor)) publisher_.publish_report(sensor, report);
 }
 
 void ReleaseToBus::on_end(std::string_view sensor) noexcept {
+  tell(live_, sensor, "has ended");
   if (standby_ != nullptr) return standby_->end(sensor);
   end(sensor);
 }
@@ -95,9 +110,17 @@ void ReleaseToBus::on_health(std::string_view sensor, const stream::SensorHealth
   publisher_.publish_health(sensor, before, now,
                             std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count());
   log_health(sensor, before, now);
+  try {
+    live_.events.add_health(std::chrono::duration<double>(since_epoch).count(), sensor, before, now);
+  } catch (const std::bad_alloc&) {
+    return;  // the log above and the topic have it
+  }
 }
 
-void ReleaseToBus::on_forgotten(std::string_view sensor) noexcept { publisher_.unregister_health(sensor); }
+void ReleaseToBus::on_forgotten(std::string_view sensor) noexcept {
+  publisher_.unregister_health(sensor);
+  tell(live_, sensor, "is forgotten: it has sent nothing for long");
+}
 
 /// Before so many more samples: gives readers the time to take or to ask again for what the writers are about
 /// to let go. Their confirmation is asked for by a timer of the middleware, not at once, so it is not waited
@@ -110,7 +133,7 @@ void ReleaseToBus::let_readers_catch_up(std::size_t samples) noexcept {
   patience_ns_ -= std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count();
 }
 
-Service::Service(const settings::Settings& settings)
+Service::Service(const settings::Settings& settings, std::string simulate_command)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
       shard_(bus_options(settings.bus).shard.value_or(fleet::Shard{})),
       keeps_noise_(!settings.noise.state_file.empty()),
@@ -121,9 +144,9 @@ Service::Service(const settings::Settings& settings)
       imu_topics_(domain_, live_bus_options(settings)),
       published_(settings.restart.published_file, settings.engine.max_channels,
                  [](const std::string& line) { spdlog::warn(line); }),
-      release_(publisher_, imu_topics_, published_, settings.bus.output.history_depth),
+      release_(publisher_, imu_topics_, published_, live_, settings.bus.output.history_depth),
       engine_(live_engine_options(settings, noise_, published_), method(settings), release_),
-      inlet_(engine_),
+      inlet_(engine_, live_.tap),
       feed_(inlet_, imu_topics_),
       imu_feed_(inlet_),
       subscriber_(domain_, bus_options(settings.bus), feed_),
@@ -138,7 +161,7 @@ Service::Service(const settings::Settings& settings)
   }
   if (!settings.monitor.enabled) return;
   try {
-    monitor_.emplace(monitor_options(settings.monitor), view());
+    monitor_.emplace(monitor_options(settings.monitor), view(settings, std::move(simulate_command)));
   } catch (const monitor::AccessError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -180,12 +203,29 @@ void Service::keep_noise() {
   if (noise_file_.save(noise_.learned())) noise_kept_ = revision;
 }
 
-monitor::View Service::view() {
+void Service::judge() {
+  engine_.judge_health();
+  engine_.fit_curves();
+  const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+  live_.tick(now.count(), engine_);
+}
+
+monitor::View Service::view(const settings::Settings& settings, std::string simulate_command) {
+  const settings::TopicSettings& topics = settings.bus.topics;
+  std::vector<std::string> inputs = {topics.raw, topics.raw_batch};
+  inputs.insert(inputs.end(), settings.bus.ros2.topics.begin(), settings.bus.ros2.topics.end());
   monitor::View view{.engine = [this] { return engine_.snapshot(); },
-                     .channels = [this](std::size_t limit) { return engine_.channels(limit); },
+                     .visit_channels = [this](std::size_t limit,
+                                              const auto& visit) { engine_.visit_channels(limit, visit); },
+                     .channel = [this](std::string_view sensor) { return engine_.channel(sensor); },
                      .bus = [this] { return bus_snapshot(); },
                      .fleet = [this] { return fleet_snapshot(); },
-                     .readiness = [this] { return readiness(); }};
+                     .readiness = [this] { return readiness(); },
+                     .config = [text = settings::text_of(settings)] { return text; },
+                     .input = {.domain = settings.bus.domain,
+                               .topics = std::move(inputs),
+                               .simulate_command = std::move(simulate_command)},
+                     .live = &live_};
   if (keeps_noise_) view.state_file_errors = [this] { return noise_file_.errors(); };
   return view;
 }
@@ -224,6 +264,10 @@ monitor::BusSnapshot Service::bus_snapshot() const {
   std::vector<monitor::IncompatiblePeers> incompatible;
   for (const bus::PeerMismatch& kind : mismatch_watch_.mismatches())
     incompatible.push_back({std::string(kind.direction), std::string(kind.policy), kind.peers});
+  std::vector<monitor::TopicReaders> readers;
+  for (const auto& topics : {publisher_.matched_readers(), ros2.matched_readers}) {
+    for (const bus::TopicReaders& topic : topics) readers.push_back({topic.topic, topic.readers});
+  }
   return {.matched_writers = subscriber_.matched_writers() + ros2.matched_writers,
           .malformed_messages =
               subscriber_.malformed_messages() + ros2.malformed_messages + bus::unreadable_messages(),
@@ -239,6 +283,7 @@ monitor::BusSnapshot Service::bus_snapshot() const {
           .deadlines_missed = broken.deadlines_missed + ros2.broken_promises.deadlines_missed,
           .liveliness_lost = broken.liveliness_lost + ros2.broken_promises.liveliness_lost,
           .incompatible_peers = std::move(incompatible),
+          .matched_readers = std::move(readers),
           .standby = standby_snapshot()};
 }
 

@@ -22,6 +22,7 @@
 #include "bus/publisher.hpp"
 #include "bus/standby.hpp"
 #include "bus/subscriber.hpp"
+#include "live/live.hpp"
 #include "monitor/monitor.hpp"
 #include "settings/settings.hpp"
 #include "stream/engine.hpp"
@@ -38,8 +39,8 @@ class ReleaseToBus final : public stream::Sink, public bus::Standby::Sink {
  public:
   /// @param depth messages that the writers keep of a sensor
   ReleaseToBus(bus::Publisher& publisher, bus::ImuTopics& imu_topics, PublishedFile& published,
-               std::size_t depth)
-      : publisher_(publisher), imu_topics_(imu_topics), published_(published), depth_(depth) {}
+               live::Live& live, std::size_t depth)
+      : publisher_(publisher), imu_topics_(imu_topics), published_(published), live_(live), depth_(depth) {}
 
   /// @param standby none, or one that this is the sink of. Before the engine's first sample
   void go_through(bus::Standby* standby) noexcept { standby_ = standby; }
@@ -72,6 +73,7 @@ class ReleaseToBus final : public stream::Sink, public bus::Standby::Sink {
   bus::Publisher& publisher_;
   bus::ImuTopics& imu_topics_;
   PublishedFile& published_;
+  live::Live& live_;
   bus::Standby* standby_ = nullptr;
   std::size_t depth_;
   std::atomic<std::int64_t> patience_ns_{0};
@@ -82,8 +84,9 @@ class ReleaseToBus final : public stream::Sink, public bus::Standby::Sink {
 class Service {
  public:
   /// Joins the domain and takes the HTTP port; nothing flows yet.
+  /// @param simulate_command what people type to simulate a sensor for this daemon
   /// @throws bus::BusError and SecurityError, Unavailable, settings::NoiseFileError for a calibration
-  explicit Service(const settings::Settings& settings);
+  explicit Service(const settings::Settings& settings, std::string simulate_command = "gyrod simulate");
 
   void start();
 
@@ -101,11 +104,9 @@ class Service {
   [[nodiscard]] const std::optional<bus::Identity>& identity() const noexcept { return domain_.identity(); }
   /// What is to be logged of programs that DDS Security keeps out (bus::PeerWatch::look): to be called about once a second.
   [[nodiscard]] std::vector<std::string> look_at_peers();
-  /// What a sensor's health and its Allan curve say (stream::Engine): to be called after tend().
-  void judge() {
-    engine_.judge_health();
-    engine_.fit_curves();
-  }
+  /// What a sensor's health and its Allan curve say (stream::Engine), and what is kept for those who look (live::Live): to be called after
+  /// tend().
+  void judge();
   /// Writes the noise state file if anything has been learned since the last time.
   void keep_noise();
   [[nodiscard]] const NoiseSources& noise() const noexcept { return noise_; }
@@ -117,7 +118,7 @@ class Service {
   }
 
  private:
-  [[nodiscard]] monitor::View view();
+  [[nodiscard]] monitor::View view(const settings::Settings& settings, std::string simulate_command);
   [[nodiscard]] monitor::BusSnapshot bus_snapshot() const;
   [[nodiscard]] monitor::FleetSnapshot fleet_snapshot() const;
   [[nodiscard]] monitor::Readiness readiness() const;
@@ -127,6 +128,7 @@ class Service {
   fleet::Shard shard_;
   std::atomic<bool> ready_{false};
   bool keeps_noise_;
+  live::Live live_;
   NoiseStateFile noise_file_;
   NoiseSources noise_;
   std::uint64_t noise_kept_ = 0;  ///< revision of noise_ that the file holds

@@ -4,10 +4,6 @@
 #include <cstddef>
 #include <functional>
 #include <string>
-#include <vector>
-
-#include <prometheus/collectable.h>
-#include <prometheus/metric_family.h>
 
 #include "monitor/view.hpp"
 
@@ -24,10 +20,12 @@ struct CollectorOptions {
 };
 
 /// Thread-safe as far as the view is; holds no state of its own.
-class Collector final : public prometheus::Collectable {
+class Collector {
  public:
   Collector(CollectorOptions options, View view);
-  [[nodiscard]] std::vector<prometheus::MetricFamily> Collect() const override;
+  /// In the Prometheus text format 0.0.4.
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] const CollectorOptions& options() const noexcept { return options_; }
 
  private:
   CollectorOptions options_;

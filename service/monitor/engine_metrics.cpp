@@ -108,9 +108,18 @@ prometheus::MetricFamily incompatible_peers(const BusSnapshot& bus) {
   return made;
 }
 
+prometheus::MetricFamily matched_readers(const BusSnapshot& bus) {
+  prometheus::MetricFamily made =
+      family("gyrod_bus_matched_readers", "Readers that take a topic of gyrod's output.", kGauge);
+  for (const TopicReaders& topic : bus.matched_readers)
+    made.metric.push_back(metric(kGauge, static_cast<double>(topic.readers), {{"topic", topic.topic}}));
+  return made;
+}
+
 void add_bus_metrics(const BusSnapshot& bus, const Readiness& readiness, Families& families) {
   add(families, kGauge, "gyrod_ready", "1 while work can be done, as /readyz says.", readiness.ready ? 1 : 0);
   add(families, kGauge, "gyrod_bus_matched_writers", "Writers that send to gyrod.", bus.matched_writers);
+  families.push_back(matched_readers(bus));
   add(families, kCounter, "gyrod_bus_malformed_messages_total",
       "DDS messages dropped whole: no usable sensor id, or too long a batch.", bus.malformed_messages);
   add(families, kCounter, "gyrod_bus_refusals_total",

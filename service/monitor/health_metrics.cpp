@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "monitor/metric_builders.hpp"
+#include "monitor/sensor_figures.hpp"
 
 namespace gyrod::monitor {
 namespace {
@@ -15,88 +16,56 @@ namespace {
 using core::NoiseTerm;
 using stream::ChannelSnapshot;
 using Families = std::vector<prometheus::MetricFamily>;
-using Value = std::optional<double>;
-
-struct SensorMetric {
-  const char* name;
-  const char* help;
-  Value (*value)(const ChannelSnapshot&);
-};
-
-struct AxisMetric {
-  const char* name;
-  const char* help;
-  Value (*value)(const ChannelSnapshot&, std::size_t axis);
-};
-
-Value if_positive(double value) { return value > 0.0 ? Value(value) : std::nullopt; }
-
-bool is_reported(const ChannelSnapshot& sensor) { return sensor.last_report.model_epoch > 0; }
-
-/// Terms of one sample are a sample apart.
-Value observed_seconds(const ChannelSnapshot& sensor) {
-  if (!(sensor.curves_rate_hz > 0.0)) return std::nullopt;
-  return static_cast<double>(sensor.curves[0].terms[0]) / sensor.curves_rate_hz;
-}
-
-Value coefficient(const ChannelSnapshot& sensor, std::size_t axis, NoiseTerm term) {
-  const core::Coefficient& found = sensor.coefficients[axis][term];
-  return found.observable ? Value(found.value) : std::nullopt;
-}
 
 /// As data sheets state it: of frequencies above 0, up to half the sample rate.
 Value noise_density(const ChannelSnapshot& sensor, std::size_t axis) {
   const double rate_hz = sensor.last_report.sample_rate_hz;
-  if (!is_reported(sensor) || !(rate_hz > 0.0)) return std::nullopt;
-  return if_positive(sensor.last_report.axis[axis].noise_floor / std::sqrt(0.5 * rate_hz));
-}
-
-Value tone_frequency(const ChannelSnapshot& sensor, std::size_t axis) {
-  const stream::NoiseReport& report = sensor.last_report;
-  return is_reported(sensor) ? if_positive(report.axis[axis].tone_frequency_cycles * report.sample_rate_hz)
-                             : std::nullopt;
+  if (!has_report(sensor) || !(rate_hz > 0.0)) return std::nullopt;
+  return known(sensor.last_report.axis[axis].noise_floor / std::sqrt(0.5 * rate_hz));
 }
 
 Value ar_order(const ChannelSnapshot& sensor, std::size_t axis) {
   const core::WindowReport& window = sensor.last_report.axis[axis];
   std::size_t most = 0;
   for (std::size_t i = 0; i < window.imf_count; ++i) most = std::max(most, window.imf[i].model.ar_order);
-  return is_reported(sensor) ? if_positive(static_cast<double>(most)) : std::nullopt;
+  return has_report(sensor) ? known(static_cast<double>(most)) : std::nullopt;
 }
 
-constexpr std::array<SensorMetric, 3> kHealthOfSensor = {{
-    {"gyrod_sensor_health", "State of the sensor: 0 ok to 8 silent, the worst of its axes.",
-     [](const ChannelSnapshot& s) {
+constexpr std::array<SensorMetric, 10> kHealthMetrics = {{
+    {"gyrod_sensor_health", "State of the sensor: 0 ok to 8 silent, the worst of its axes.", kGauge, false,
+     [](const ChannelSnapshot& s, std::size_t) {
        return s.health ? Value(static_cast<double>(s.health->state)) : std::nullopt;
      }},
-    {"gyrod_sensor_allan_seconds", "Rest that the sensor's Allan deviation rests on.", observed_seconds},
-    {"gyrod_sensor_lag_samples", "Newer samples that a released one has seen.",
-     [](const ChannelSnapshot& s) {
-       return is_reported(s) ? Value(static_cast<double>(s.last_report.lag_samples)) : std::nullopt;
+    {"gyrod_sensor_allan_seconds", "Rest that the sensor's Allan deviation rests on.", kGauge, false,
+     [](const ChannelSnapshot& s, std::size_t) { return rest_seconds(s); }},
+    {"gyrod_sensor_lag_samples", "Newer samples that a released one has seen.", kGauge, false,
+     [](const ChannelSnapshot& s, std::size_t) {
+       return has_report(s) ? Value(static_cast<double>(s.last_report.lag_samples)) : std::nullopt;
      }},
-}};
 
-constexpr std::array<AxisMetric, 7> kHealthOfAxis = {{
-    {"gyrod_axis_health", "State of the axis: 0 ok to 8 silent.",
+    {"gyrod_axis_health", "State of the axis: 0 ok to 8 silent.", kGauge, true,
      [](const ChannelSnapshot& s, std::size_t axis) {
        return s.health ? Value(static_cast<double>(s.health->axis[axis].state)) : std::nullopt;
      }},
-    {"gyrod_axis_bias_radians_per_second", "Mean rate at rest, of the last ten minutes of rest.",
+    {"gyrod_axis_bias_radians_per_second", "Mean rate at rest, of the last ten minutes of rest.", kGauge,
+     true,
      [](const ChannelSnapshot& s, std::size_t axis) {
        return s.bias_s > 0.0 ? Value(s.bias_radps[axis]) : std::nullopt;
      }},
     {"gyrod_axis_noise_density_radians_per_second_per_root_hertz",
-     "Noise floor over the root of half the sample rate.", noise_density},
-    {"gyrod_axis_angle_random_walk_radians_per_root_second", "N, from the Allan deviation at rest.",
+     "Noise floor over the root of half the sample rate.", kGauge, true, noise_density},
+    {"gyrod_axis_angle_random_walk_radians_per_root_second", "N, from the Allan deviation at rest.", kGauge,
+     true,
      [](const ChannelSnapshot& s, std::size_t axis) {
        return coefficient(s, axis, NoiseTerm::kAngleRandomWalk);
      }},
-    {"gyrod_axis_bias_instability_radians_per_second", "B, from the Allan deviation at rest.",
+    {"gyrod_axis_bias_instability_radians_per_second", "B, from the Allan deviation at rest.", kGauge, true,
      [](const ChannelSnapshot& s, std::size_t axis) {
        return coefficient(s, axis, NoiseTerm::kBiasInstability);
      }},
-    {"gyrod_axis_tone_hertz", "Strongest periodic disturbance in the last window's model.", tone_frequency},
-    {"gyrod_axis_ar_order", "Largest order of the last window's AR models.", ar_order},
+    {"gyrod_axis_tone_hertz", "Strongest periodic disturbance in the last window's model.", kGauge, true,
+     tone_frequency},
+    {"gyrod_axis_ar_order", "Largest order of the last window's AR models.", kGauge, true, ar_order},
 }};
 
 prometheus::MetricFamily by_state(const char* name, const char* help, prometheus::MetricType type,
@@ -119,26 +88,6 @@ void add_health_totals(const stream::EngineSnapshot& engine, Families& families)
                               engine.health_changes));
 }
 
-void add_health_metrics(std::span<const ChannelSnapshot> shown, Families& families) {
-  for (const SensorMetric& kind : kHealthOfSensor) {
-    prometheus::MetricFamily made = family(kind.name, kind.help, kGauge);
-    for (const ChannelSnapshot& sensor : shown) {
-      if (const Value value = kind.value(sensor))
-        made.metric.push_back(metric(kGauge, *value, {{"sensor", sensor.sensor}}));
-    }
-    families.push_back(std::move(made));
-  }
-  for (const AxisMetric& kind : kHealthOfAxis) {
-    prometheus::MetricFamily made = family(kind.name, kind.help, kGauge);
-    for (const ChannelSnapshot& sensor : shown) {
-      for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
-        if (const Value value = kind.value(sensor, axis))
-          made.metric.push_back(
-              metric(kGauge, *value, {{"sensor", sensor.sensor}, {"axis", stream::kAxisNames[axis]}}));
-      }
-    }
-    families.push_back(std::move(made));
-  }
-}
+std::span<const SensorMetric> health_metrics() noexcept { return kHealthMetrics; }
 
 }  // namespace gyrod::monitor

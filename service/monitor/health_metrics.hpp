@@ -6,6 +6,7 @@
 
 #include <prometheus/metric_family.h>
 
+#include "monitor/sensor_metrics.hpp"
 #include "stream/counters.hpp"
 
 namespace gyrod::monitor {
@@ -13,8 +14,7 @@ namespace gyrod::monitor {
 /// How many sensors are in which state, all of them.
 void add_health_totals(const stream::EngineSnapshot& engine, std::vector<prometheus::MetricFamily>& families);
 
-/// State, Allan figures and models of the sensors shown. What is not known, or not observable, has no series.
-void add_health_metrics(std::span<const stream::ChannelSnapshot> shown,
-                        std::vector<prometheus::MetricFamily>& families);
+/// State, Allan figures and models. What is not known, or not observable, has no series.
+[[nodiscard]] std::span<const SensorMetric> health_metrics() noexcept;
 
 }  // namespace gyrod::monitor

@@ -4,8 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include <prometheus/text_serializer.h>
-
+#include "monitor/api.hpp"
 #include "monitor/collector.hpp"
 #include "monitor/http_server.hpp"
 #include "monitor/socket.hpp"
@@ -17,6 +16,7 @@ constexpr const char* kPrometheusText = "text/plain; version=0.0.4; charset=utf-
 constexpr const char* kIndex =
     "<!DOCTYPE html>\n"
     "<html lang=\"en\"><head><meta charset=\"utf-8\"><title>gyrod</title></head><body><h1>gyrod</h1><ul>\n"
+    "<li><a href=\"/api/v1/status\">/api/v1/status</a> and more as JSON</li>\n"
     "<li><a href=\"/metrics\">/metrics</a> for Prometheus</li>\n"
     "<li><a href=\"/healthz\">/healthz</a> 200 while the process answers</li>\n"
     "<li><a href=\"/readyz\">/readyz</a> 200 when samples can be denoised, else 503 and why not</li>\n"
@@ -29,6 +29,18 @@ CollectorOptions collector_options(const MonitorOptions& options) {
           .version = options.version,
           .start_time_s = duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(),
           .uptime_s = [start] { return duration<double>(std::chrono::steady_clock::now() - start).count(); }};
+}
+
+/// Of the same process, with the same clock.
+ApiOptions api_options(const CollectorOptions& options) {
+  using std::chrono::duration;
+  return {
+      .version = options.version,
+      .start_time_s = options.start_time_s,
+      .uptime_s = options.uptime_s,
+      .steady_s =
+          [] { return duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); },
+      .time_s = [] { return duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }};
 }
 
 }  // namespace
@@ -45,15 +57,17 @@ class Monitor::Impl {
  private:
   Impl(const MonitorOptions& options, View view, Socket listener)
       : readiness_(view.readiness),
-        collector_(collector_options(options), std::move(view)),
+        collector_(collector_options(options), view),
+        api_(api_options(collector_.options()), std::move(view)),
         port_(port_of(listener)),
-        server_(std::move(listener), [this](const Request& request) { return answer(request.path); },
+        server_(std::move(listener), [this](const Request& request) { return answer(request); },
                 {.address = options.address, .access = options.access, .warn = options.warn}) {}
 
-  [[nodiscard]] Answer answer(const std::string& path) const {
+  [[nodiscard]] Answer answer(const Request& request) const {
+    const std::string& path = request.path;
+    if (Api::is_for(path)) return api_.answer(request);
     if (path == "/metrics") {
-      return {.content_type = kPrometheusText,
-              .body = prometheus::TextSerializer().Serialize(collector_.Collect())};
+      return {.content_type = kPrometheusText, .body = collector_.text()};
     }
     if (path == "/healthz") return {.body = "ok\n"};
     if (path == "/readyz") return ready();
@@ -69,6 +83,7 @@ class Monitor::Impl {
 
   std::function<Readiness()> readiness_;
   Collector collector_;
+  Api api_;
   std::uint16_t port_;
   HttpServer server_;  // last: its threads use the others
 };

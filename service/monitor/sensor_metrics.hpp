@@ -3,19 +3,25 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
-#include <prometheus/metric_family.h>
+#include <prometheus/metric_type.h>
 
+#include "monitor/sensor_figures.hpp"
 #include "stream/counters.hpp"
 
 namespace gyrod::monitor {
 
-/// Adds the series of the sensors shown, and the number of those that are not. A figure that is not known yet
-/// (before a sensor's first window, a rate not estimated, a floor not found) gives no series: 0 would be a
-/// lie.
-/// @param sensors all sensors that there are, at least shown.size() unless some closed meanwhile
-void add_sensor_metrics(std::span<const stream::ChannelSnapshot> shown, std::size_t sensors,
-                        std::vector<prometheus::MetricFamily>& families);
+/// One family: a series a sensor, or an axis. A figure that is not known yet (before a sensor's first window, a rate not estimated, a floor
+/// not found) gives no series: 0 would be a lie.
+struct SensorMetric {
+  const char* name;
+  const char* help;
+  prometheus::MetricType type;  ///< counter or gauge
+  bool of_axis;
+  /// @param axis 0 where it is not of an axis
+  Value (*value)(const stream::ChannelSnapshot&, std::size_t axis);
+};
+
+[[nodiscard]] std::span<const SensorMetric> sensor_metrics() noexcept;
 
 }  // namespace gyrod::monitor

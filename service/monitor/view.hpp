@@ -8,9 +8,14 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "stream/counters.hpp"
+
+namespace gyrod::live {
+struct Live;
+}
 
 namespace gyrod::monitor {
 
@@ -19,6 +24,12 @@ struct IncompatiblePeers {
   std::string direction;  ///< "input": their writers and our readers; "output": our writers and their readers
   std::string policy;     ///< what differs, e.g. "reliability"
   std::size_t peers = 0;  ///< now
+};
+
+/// Readers that take one of our output topics.
+struct TopicReaders {
+  std::string topic;
+  std::size_t readers = 0;  ///< now
 };
 
 /// The part of a daemon among several with the same output, at one moment.
@@ -48,6 +59,7 @@ struct BusSnapshot {
   /// Times a writer gave no sign of life within the lease that it promised.
   std::uint64_t liveliness_lost = 0;
   std::vector<IncompatiblePeers> incompatible_peers = {};  ///< one of each kind there can be
+  std::vector<TopicReaders> matched_readers = {};          ///< one of each of our output topics
   std::optional<StandbySnapshot> standby = {};             ///< none where this daemon is to be the only one
 };
 
@@ -69,15 +81,33 @@ struct Readiness {
   std::string reason;  ///< why not, in a few words, e.g. "stopping"; unused when ready
 };
 
-/// All but the last must be set.
+/// Where samples are expected from, as configured: what a page without sensors tells.
+struct InputFacts {
+  std::uint32_t domain = 0;
+  std::vector<std::string> topics = {};
+  std::string simulate_command = {};  ///< simulates a sensor for this daemon
+};
+
+using ChannelVisitor = std::function<void(const stream::ChannelSnapshot&)>;
+/// More than any engine opens.
+inline constexpr std::size_t kAllSensors = static_cast<std::size_t>(-1);
+
+/// Functions up to readiness must be set.
 struct View {
   std::function<stream::EngineSnapshot()> engine;
-  std::function<std::vector<stream::ChannelSnapshot>(std::size_t limit)> channels;
+  /// Calls the visitor for up to `limit` sensors, in the order of opening.
+  std::function<void(std::size_t limit, const ChannelVisitor& visit)> visit_channels;
+  std::function<std::optional<stream::ChannelSnapshot>(std::string_view sensor)> channel;
   std::function<BusSnapshot()> bus;
   std::function<FleetSnapshot()> fleet;
   std::function<Readiness()> readiness;
   /// Times the noise state file could not be written; none where there is no such file.
   std::function<std::uint64_t()> state_file_errors = {};
+  /// The configuration in force as JSON; none: not told.
+  std::function<std::string()> config = {};
+  InputFacts input = {};
+  /// What is kept for those who look; none: nothing is.
+  live::Live* live = nullptr;
 };
 
 }  // namespace gyrod::monitor

@@ -1,8 +1,11 @@
 /// A view of an engine and a bus that are not there, with values that tell every metric from the others.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -128,6 +131,7 @@ inline Shown busy_gyrod() {
       .deadlines_missed = 47,
       .liveliness_lost = 48,
       .incompatible_peers = {{"input", "reliability", 3}, {"output", "type", 0}},
+      .matched_readers = {{"gyro/denoised", 63}, {"gyro/noise", 0}},
       .standby = StandbySnapshot{.others = 57, .sensors = 58, .held = 59, .let_go = 60, .takeovers = 61}};
   shown.fleet = {.shard = "2/3",
                  .active = true,
@@ -144,16 +148,23 @@ inline Shown busy_gyrod() {
 /// @param shown outlives the view; not to be changed while a monitor runs on it
 inline View view_of(const Shown& shown) {
   return {.engine = [&shown] { return shown.engine; },
-          .channels =
-              [&shown](std::size_t limit) {
-                auto channels = shown.channels;
-                if (channels.size() > limit) channels.resize(limit);
-                return channels;
+          .visit_channels =
+              [&shown](std::size_t limit, const ChannelVisitor& visit) {
+                for (std::size_t i = 0; i < std::min(limit, shown.channels.size()); ++i)
+                  visit(shown.channels[i]);
               },
+          .channel = [&shown](std::string_view sensor) -> std::optional<stream::ChannelSnapshot> {
+            const auto found = std::ranges::find(shown.channels, sensor, &stream::ChannelSnapshot::sensor);
+            return found == shown.channels.end() ? std::nullopt : std::optional(*found);
+          },
           .bus = [&shown] { return shown.bus; },
           .fleet = [&shown] { return shown.fleet; },
           .readiness = [&shown] { return shown.readiness; },
-          .state_file_errors = [&shown] { return shown.state_file_errors; }};
+          .state_file_errors = [&shown] { return shown.state_file_errors; },
+          .config = [] { return std::string(R"({"bus": {"domain": 3}})"); },
+          .input = {.domain = 3,
+                    .topics = {"gyro/raw", "gyro/raw_batch"},
+                    .simulate_command = "gyrod simulate --domain 3"}};
 }
 
 }  // namespace gyrod::monitor::test

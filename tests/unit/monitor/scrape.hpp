@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <prometheus/text_serializer.h>
-
 #include "monitor/collector.hpp"
 #include "unit/monitor/exposition.hpp"
 #include "unit/monitor/fixed_view.hpp"
@@ -19,7 +17,7 @@ inline std::string exposition_of(const Shown& shown, std::size_t max_channel_ser
                              .start_time_s = 1.7e9,
                              .uptime_s = [] { return 42.5; }},
                             view_of(shown));
-  return prometheus::TextSerializer().Serialize(collector.Collect());
+  return collector.text();
 }
 
 inline std::vector<Family> families_of(const Shown& shown, std::size_t max_channel_series = 200) {
