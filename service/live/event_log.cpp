@@ -88,15 +88,33 @@ void EventLog::add(double time_s, std::string_view sensor, std::string text) {
 }
 
 void EventLog::push(Event event) {
+  const std::lock_guard lock(inbox_mutex_);
+  if (inbox_.size() < kCapacity) inbox_.push_back(std::move(event));
+}
+
+/// @pre mutex_ is held
+void EventLog::take_in() const {
+  std::vector<Event> added;
+  {
+    const std::lock_guard lock(inbox_mutex_);
+    added.swap(inbox_);
+  }
+  for (Event& event : added) {
+    if (events_.size() == kCapacity) events_.pop_front();
+    event.id = last_id_ + 1;
+    events_.push_back(std::move(event));
+    ++last_id_;
+  }
+}
+
+void EventLog::settle() const {
   const std::lock_guard lock(mutex_);
-  if (events_.size() == kCapacity) events_.pop_front();
-  event.id = last_id_ + 1;
-  events_.push_back(std::move(event));
-  ++last_id_;
+  take_in();
 }
 
 EventLog::Page EventLog::read(const Query& query) const {
   const std::lock_guard lock(mutex_);
+  take_in();
   Page page;
   page.last_id = last_id_;
   page.first_id = events_.empty() ? 0 : events_.front().id;
@@ -119,6 +137,7 @@ EventLog::Page EventLog::read(const Query& query) const {
 
 std::uint64_t EventLog::last_id() const {
   const std::lock_guard lock(mutex_);
+  take_in();
   return last_id_;
 }
 

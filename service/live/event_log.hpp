@@ -34,8 +34,8 @@ struct Event {
 /// The unit of `value` and `limit` in a state; empty for a plain ratio, share or step.
 [[nodiscard]] std::string_view unit_of(stream::Health state) noexcept;
 
-/// Keeps the newest events, a bounded number; any thread may add and read. Never in the way of samples: whoever adds holds the lock for a
-/// push to a queue.
+/// Keeps the newest events, a bounded number; any thread may add and read. Who adds never waits for one that reads, which may be of lower
+/// priority, but for the time of a swap. Where nobody settles for long, what is added beyond kCapacity is lost.
 class EventLog {
  public:
   static constexpr std::size_t kCapacity = 2000;
@@ -61,13 +61,18 @@ class EventLog {
   [[nodiscard]] Page read(const Query& query) const;
   /// Of the newest event; 0 while there is none.
   [[nodiscard]] std::uint64_t last_id() const;
+  /// Takes in what was added; readers do so, too. About once a second.
+  void settle() const;
 
  private:
   void push(Event event);
+  void take_in() const;
 
-  mutable std::mutex mutex_;
-  std::deque<Event> events_;
-  std::uint64_t last_id_ = 0;
+  mutable std::mutex mutex_;  ///< taken before the inbox's
+  mutable std::deque<Event> events_;
+  mutable std::uint64_t last_id_ = 0;
+  mutable std::mutex inbox_mutex_;
+  mutable std::vector<Event> inbox_;
 };
 
 }  // namespace gyrod::live

@@ -19,12 +19,21 @@ stream::SensorHealth health(Health x, Health y, Health z) {
 
 TEST(EventLog, KeepsTheNewestAndGoesOnCounting) {
   EventLog log;
-  for (std::size_t i = 1; i <= EventLog::kCapacity + 10; ++i) log.add(1.0, "", std::to_string(i));
+  for (std::size_t i = 1; i <= EventLog::kCapacity + 10; ++i) {
+    log.add(1.0, "", std::to_string(i));
+    if (i % 100 == 0) log.settle();
+  }
   const EventLog::Page page = log.read({});
   EXPECT_EQ(page.first_id, 11U);
   EXPECT_EQ(page.last_id, EventLog::kCapacity + 10);
   EXPECT_EQ(page.events.size(), EventLog::kCapacity);
   EXPECT_EQ(page.events.front().text, "11");
+}
+
+TEST(EventLog, AFloodThatNobodyTakesInIsBounded) {
+  EventLog log;
+  for (std::size_t i = 1; i <= EventLog::kCapacity + 10; ++i) log.add(1.0, "", std::to_string(i));
+  EXPECT_EQ(log.last_id(), EventLog::kCapacity);
 }
 
 TEST(EventLog, AChangeOfAllAxesAlikeIsOneEvent) {
