@@ -20,7 +20,7 @@ constexpr std::size_t kMaxUnsentBytes = std::size_t{64} * 1024 * 1024;
 constexpr std::chrono::milliseconds kDeafTime{500};
 /// Before the clients that are here have their turn.
 constexpr int kMaxAccepted = 64;
-constexpr std::chrono::seconds kLookAgain{1};
+constexpr std::chrono::seconds kLookForCertificate{1};
 /// After a failed accept(), e.g. no descriptor left: others may give some back.
 constexpr std::chrono::milliseconds kAcceptPause{50};
 
@@ -117,7 +117,7 @@ void HttpServer::accept_clients(Deadline now) {
 
 Ssl HttpServer::new_tls(int descriptor, Deadline now) {
   if (now >= look_for_certificate_) {
-    look_for_certificate_ = now + kLookAgain;
+    look_for_certificate_ = now + kLookForCertificate;
     try {
       tls_->renew();
     } catch (const AccessError& error) {
