@@ -55,7 +55,8 @@ void AnswerPool::work() noexcept {
     try {
       done.reply = exchange.reply_to(job.request, job.address);
     } catch (const std::exception&) {
-      // Out of memory: this client is disconnected without an answer, the next one may fare better.
+      done.reply =
+          {};  // out of memory: this client is disconnected without an answer, the next one may fare better
     }
     {
       const std::scoped_lock lock(mutex_);

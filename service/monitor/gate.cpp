@@ -17,7 +17,7 @@ namespace {
 constexpr RateLimit::Options kFailures{.burst = 10.0, .per_second = 0.5};
 /// Of all addresses together; hashing must not become what gyrod does.
 constexpr RateLimit::Options kAllFailures{.burst = 60.0, .per_second = 4.0};
-const std::string kAnyAddress = "*";
+constexpr const char* kAnyAddress = "*";
 constexpr std::chrono::seconds kLookAgain{1};
 constexpr std::chrono::minutes kTellAgain{1};
 constexpr std::size_t kMaxCredentials = 1024;
@@ -36,7 +36,7 @@ std::string_view name_in(std::string_view host) {
 /// What follows `scheme` and a space.
 std::optional<std::string_view> after(std::string_view authorization, std::string_view scheme) {
   const std::string_view begin = authorization.substr(0, scheme.size());
-  if (!same_letters(begin, scheme) || authorization.substr(begin.size()).substr(0, 1) != " ")
+  if (!same_letters(begin, scheme) || !authorization.substr(begin.size()).starts_with(' '))
     return std::nullopt;
   return authorization.substr(scheme.size() + 1);
 }

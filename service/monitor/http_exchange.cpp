@@ -16,7 +16,7 @@ namespace {
 using Header = std::pair<std::string, std::string>;
 
 /// Of every answer that does not say otherwise.
-const std::array<Header, 5> kHeaders = {{
+constexpr std::array<std::pair<const char*, const char*>, 5> kHeaders = {{
     {"Cache-Control", "no-store"},
     {"Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'"},
     {"Referrer-Policy", "no-referrer"},
@@ -104,8 +104,8 @@ std::string first_line(int status) {
 }
 
 void add_default_headers(std::vector<Header>& headers) {
-  for (const Header& header : kHeaders) {
-    if (std::ranges::find(headers, header.first, &Header::first) == headers.end()) headers.push_back(header);
+  for (const auto& [name, value] : kHeaders) {
+    if (std::ranges::find(headers, name, &Header::first) == headers.end()) headers.emplace_back(name, value);
   }
 }
 
@@ -182,7 +182,8 @@ void HttpExchange::respond(const httplib::Request& request, httplib::Response& r
   answer.headers.emplace_back("Vary", "Accept-Encoding");
   response.status = answer.status;
   for (const auto& [name, value] : answer.headers) response.set_header(name, value);
-  response.set_content(std::move(answer.body), answer.content_type);
+  response.set_header("Content-Type", answer.content_type);
+  response.body = std::move(answer.body);
 }
 
 Answer HttpExchange::answer_to(const httplib::Request& request) {

@@ -22,7 +22,7 @@ using Owned = std::unique_ptr<T, Free>;
 /// Nobody is there to be asked.
 int no_passphrase(char*, int, int, void*) { return 0; }
 
-std::string reason() {
+std::string openssl_reason() {
   const char* words = ERR_reason_error_string(ERR_peek_last_error());
   ERR_clear_error();
   return words == nullptr ? "no reason given" : words;
@@ -36,7 +36,7 @@ Owned<BIO> bio_of(const std::string& text) {
 
 SslContext new_context() {
   SslContext context(SSL_CTX_new(TLS_server_method()));
-  if (context == nullptr) throw std::runtime_error("TLS: " + reason());
+  if (context == nullptr) throw std::runtime_error("TLS: " + openssl_reason());
   SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
   // With forward secrecy and authenticated encryption only; TLS 1.3 has no others.
   SSL_CTX_set_cipher_list(context.get(), "ECDHE+AESGCM:ECDHE+CHACHA20");
@@ -59,10 +59,10 @@ void use_certificates(SSL_CTX* context, const std::string& file) {
   const std::string text = read_file(file);
   const Owned<BIO> bio = bio_of(text);
   const Owned<X509> ours(PEM_read_bio_X509(bio.get(), nullptr, no_passphrase, nullptr));
-  if (ours == nullptr) throw AccessError(file, "no certificate (" + reason() + "); expected one in PEM");
+  if (ours == nullptr) throw AccessError(file, "no certificate (" + openssl_reason() + "); expected one in PEM");
   check_time(file, ours.get());
   if (SSL_CTX_use_certificate(context, ours.get()) != 1)
-    throw AccessError(file, "the certificate cannot be used: " + reason());
+    throw AccessError(file, "the certificate cannot be used: " + openssl_reason());
   while (X509* next = PEM_read_bio_X509(bio.get(), nullptr, no_passphrase, nullptr)) {
     if (SSL_CTX_add0_chain_cert(context, next) != 1) X509_free(next);
   }
@@ -75,7 +75,7 @@ void use_key(SSL_CTX* context, const std::string& file, const std::string& certi
   const Owned<EVP_PKEY> key(PEM_read_bio_PrivateKey(bio_of(text).get(), nullptr, no_passphrase, nullptr));
   OPENSSL_cleanse(text.data(), text.size());
   if (key == nullptr)
-    throw AccessError(file, "no private key (" + reason() + "); expected one in PEM, without a passphrase");
+    throw AccessError(file, "no private key (" + openssl_reason() + "); expected one in PEM, without a passphrase");
   const bool fits =
       SSL_CTX_use_PrivateKey(context, key.get()) == 1 && SSL_CTX_check_private_key(context) == 1;
   ERR_clear_error();
