@@ -5,6 +5,7 @@
 ///     tabs.js                              tabs of the reports
 ///     report.html, report.css, report_figures.js, report.js   the report page (service/report)
 ///     evaluation.html, evaluation.js       the page of `gyrod evaluate`, with the report's styles and figure helpers
+///     live.html, live.css, live_*.js, live.js   the daemon's live page (service/monitor)
 #pragma once
 
 #include <string_view>
