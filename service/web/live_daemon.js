@@ -74,6 +74,9 @@ const gyrodDaemon = (() => {
       ["liveliness lost", units.count(b.liveliness_lost)],
       ["sensors open, silent, forgotten", [c.open, c.silent, c.forgotten].map(units.count).join(", ")],
     ];
+    for (const { topic, readers } of b.matched_readers ?? []) list.push([`readers of ${topic}`, units.count(readers)]);
+    if (b.ros2_topics > 0) list.push(["ROS 2 topics open, refused", `${units.count(b.ros2_topics)}, ${units.count(b.ros2_refused_topics)}`]);
+    if (units.known(b.certificate_expiry_s)) list.push(["the first certificate ends", units.moment(b.certificate_expiry_s)]);
     if (fleet && fleet.shard !== "1/1") list.push(["shard", `${fleet.shard}, ${fleet.active ? "active" : "joining"}, ${units.count(fleet.peers)} others`]);
     if (standby) list.push(["hot standby", `${units.count(standby.others)} others, publishes ${units.count(standby.sensors)} sensors, ${units.count(standby.takeovers)} takeovers`]);
     return list;

@@ -65,6 +65,7 @@ const gyrodImfs = (() => {
       ],
     }));
     table(parent, `Modes of the newest window, ${axis} axis: j = ${own.j}, k = ${own.k}`, heads, rows, [0, 1, 3, 8]);
+    if (own.imfs.some((imf) => imf.pcc === null)) parent.append(element("p", "–: not asked for by the method and screening in use.", "note"));
     parent.append(element("p", "Energy: the upright line is what white noise of this sensor's level has in the mode (excess 1), the stripe what chance allows around it. Noise is dropped, mixed is filtered, signal is kept.", "note"));
   }
 

@@ -132,7 +132,7 @@ const gyrodPlots = (() => {
     });
     made.say("waiting for the first report …");
 
-    const seen = (allanData) => `${units.plain(allanData.at_rest_s)} s of ${units.known(own.needs_s) ? `${units.plain(own.needs_s)} s` : "more"} at rest`;
+    const seen = (allanData) => `${units.plain(allanData.at_rest_s ?? 0)} s of ${units.known(own.needs_s) ? `${units.plain(own.needs_s)} s` : "more"} at rest`;
     const coefficient = (name, kind, value, allanData) => (units.known(value) ? `${name} = ${units.text(kind, value)}` : `${name}: not observable yet, ${seen(allanData)}`);
 
     function update(allanData) {
@@ -142,7 +142,7 @@ const gyrodPlots = (() => {
       const n = own.angle_random_walk_radps_sqrt_hz;
       const line = own.tau_s.map((tau) => (units.known(n) ? units.convert("rate", n / Math.sqrt(tau)) : null));
       made.draw([own.tau_s, own.deviation_radps.map((v) => (v > 0 ? units.convert("rate", v) : null)), line]);
-      made.note(`${units.time(allanData.at_rest_s)} at rest. ${coefficient("N", "random_walk", n, allanData)}. ${coefficient("B", "instability", own.bias_instability_radps, allanData)}.`);
+      made.note(`Of ${units.time(allanData.at_rest_s)} at rest. ${coefficient("N", "random_walk", n, allanData)}. ${coefficient("B", "instability", own.bias_instability_radps, allanData)}.`);
     }
     return { update, remove: made.remove };
   }

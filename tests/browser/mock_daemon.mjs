@@ -206,7 +206,9 @@ export async function startMock({ page, sensors, port = 0, epoch = "1" }) {
       const from = healths[index];
       healths[index] = health;
       mock.sensors.set(sensor, healths);
-      mock.events.push({ id: mock.events.length + 1, time_s: now_s() - 60 + mock.events.length, sensor, kind: "health", axis: kAxes[index], from, to: health, value: null, limit: null, unit: null, text: `the ${kAxes[index]} axis went from ${from} to ${health}` });
+      const { value, limit } = axis(sensor, index, health, 0);
+      const id = mock.events.length + 1;
+      mock.events.push({ id, time_s: now_s() - 60 + id, sensor, kind: "health", axis: kAxes[index], from, to: health, value, limit, unit: null, text: `${sensor} axis ${kAxes[index]} is ${health}, before ${from}.` });
     },
     stop: () => new Promise((done) => {
       timers.forEach(clearInterval);
