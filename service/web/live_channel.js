@@ -72,7 +72,7 @@ const gyrodChannel = (() => {
     card(pair, "Window and hop").append(work);
     const events = element("div");
     card(parent, "Events").append(events);
-    const counts = element("dl", undefined, "facts");
+    const counts = element("dl", undefined, "facts columns-of-facts");
     card(parent, "Counts").append(counts);
 
     const index = () => kAxes.indexOf(state.axis);

@@ -49,11 +49,12 @@ const gyrodImfs = (() => {
       return;
     }
     const unit = units.unit("rate");
+    const windowed = !own.fit; // a model method takes from the modes what it models; nothing is dropped or kept
     const heads = ["IMF", "taken for", "mean period", "energy against the noise line", "excess", `RMS, ${unit}`, "PCC", "variance of ACF", "model", `innovation σ, ${unit}`];
     const rows = own.imfs.map((imf, i) => ({
       cells: [
         String(i + 1),
-        { text: `${imf.class}, ${kMeaning[imf.class] ?? ""}`, className: `class-${imf.class}`, colour: `--${imf.class}` },
+        { text: windowed ? `${imf.class}, ${kMeaning[imf.class] ?? ""}` : imf.class, className: `class-${imf.class}`, colour: `--${imf.class}` },
         units.time(imf.mean_period_s),
         gauge(imf),
         imf.excess > 0 ? `× ${number(imf.excess, 3)}` : "not known",
@@ -66,7 +67,7 @@ const gyrodImfs = (() => {
     }));
     table(parent, `Modes of the newest window, ${axis} axis: j = ${own.j}, k = ${own.k}`, heads, rows, [0, 1, 3, 8]);
     if (own.imfs.some((imf) => imf.pcc === null)) parent.append(element("p", "–: not asked for by the method and screening in use.", "note"));
-    parent.append(element("p", "Energy: the upright line is what white noise of this sensor's level has in the mode (excess 1), the stripe what chance allows around it. Noise is dropped, mixed is filtered, signal is kept.", "note"));
+    parent.append(element("p", `Energy: the upright line is what white noise of this sensor's level has in the mode (excess 1), the stripe what chance allows around it. ${windowed ? "Noise is dropped, mixed is filtered, signal is kept." : "The models of motion and noise are made of what the modes show."}`, "note"));
   }
 
   return { update };

@@ -47,12 +47,14 @@ const gyrodList = (() => {
 
   const kSparkWidth = 60;
   const kSparkHeight = 16;
-  /// The noise of the last ten minutes from least to most; breaks where it was not known.
+  const kLeastSpan = 0.5; // of the mean: below, what is shown is chance, and would look like news
+  /// The noise of the last ten minutes; breaks where it was not known.
   function sparkPath(history) {
     const values = (history ?? []).filter(units.known);
     if (values.length < 2) return "";
-    const least = Math.min(...values);
-    const span = Math.max(...values) - least || 1;
+    const [low, high] = [Math.min(...values), Math.max(...values)];
+    const span = Math.max(high - low, kLeastSpan * ((high + low) / 2)) || 1;
+    const least = (high + low - span) / 2;
     let path = "";
     let pen = "M";
     history.forEach((value, i) => {

@@ -132,17 +132,18 @@ const gyrodPlots = (() => {
     });
     made.say("waiting for the first report …");
 
-    const seen = (allanData) => `${units.plain(allanData.at_rest_s ?? 0)} s of ${units.known(own.needs_s) ? `${units.plain(own.needs_s)} s` : "more"} at rest`;
-    const coefficient = (name, kind, value, allanData) => (units.known(value) ? `${name} = ${units.text(kind, value)}` : `${name}: not observable yet, ${seen(allanData)}`);
+    /// needs_s is what the first unknown of N and B needs.
+    const seen = (allanData) => (units.known(own.needs_s) ? `, ${units.plain(allanData.at_rest_s ?? 0)} s of ${units.plain(own.needs_s)} s at rest` : "");
+    const coefficient = (name, kind, value, waits) => (units.known(value) ? `${name} = ${units.text(kind, value)}` : `${name}: not observable yet${waits}`);
 
     function update(allanData) {
       own = allanData?.axes?.[index] ?? null;
       if (!own) return made.say("No Allan deviation: gyrod does not look for rest of this sensor.");
-      if (own.tau_s.length === 0) return made.say(`Not observable yet: ${seen(allanData)}. It is taken while the sensor stands still.`);
+      if (own.tau_s.length === 0) return made.say(`Not observable yet${seen(allanData)}. It is taken while the sensor stands still.`);
       const n = own.angle_random_walk_radps_sqrt_hz;
       const line = own.tau_s.map((tau) => (units.known(n) ? units.convert("rate", n / Math.sqrt(tau)) : null));
       made.draw([own.tau_s, own.deviation_radps.map((v) => (v > 0 ? units.convert("rate", v) : null)), line]);
-      made.note(`Of ${units.time(allanData.at_rest_s)} at rest. ${coefficient("N", "random_walk", n, allanData)}. ${coefficient("B", "instability", own.bias_instability_radps, allanData)}.`);
+      made.note(`Of ${units.time(allanData.at_rest_s)} at rest. ${coefficient("N", "random_walk", n, seen(allanData))}. ${coefficient("B", "instability", own.bias_instability_radps, units.known(n) ? seen(allanData) : "")}.`);
     }
     return { update, remove: made.remove };
   }

@@ -10,7 +10,13 @@ const kEnd = 13500;
 /// A sensor at rest, at 100 Hz, that becomes three times as loud.
 function loudRecording() {
   let state = 11;
-  const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32 + 2 ** -33;
+  const uniform = () => {
+    // mulberry32: a plainer generator's pairs are not independent, and rest is told by whiteness
+    state = (state + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return (((mixed ^ (mixed >>> 14)) >>> 0) + 0.5) / 2 ** 32;
+  };
   const normal = () => Math.sqrt(-2 * Math.log(uniform())) * Math.cos(2 * Math.PI * uniform());
   const rows = Array.from({ length: kEnd }, (_, n) => {
     const rates = [0, 1, 2].map(() => (normal() * 0.006 * (n < kFault ? 1 : 3)).toFixed(9));
