@@ -80,9 +80,9 @@ export async function testDaemon(browser, daemon) {
   const file = writeFile("loud.csv", loudRecording());
   const calm = startSensor("simulate", "--sensor", "calm", "--seed", "3", "--step", "0");
   const killed = startSensor("simulate", "--sensor", "killed", "--seed", "4", "--step", "0");
-  const loud = startSensor("replay", file, "--sensor", "loud", "--speed", "15", "--batch", "10");
 
   await becomes(page, "calm", "ok", "green");
+  const loud = startSensor("replay", file, "--sensor", "loud", "--speed", "10", "--batch", "10");
   await rowOf(page, "calm").click();
   await page.waitForFunction(() => document.querySelectorAll("#channel canvas").length >= 2);
   await becomes(page, "loud", "noisy", "red");
