@@ -32,8 +32,6 @@ Answer live_page() {
   return {.content_type = "text/html; charset=utf-8",
           .body = page,
           .headers = {{"Content-Security-Policy", policy},
-                      {"X-Content-Type-Options", "nosniff"},
-                      {"Referrer-Policy", "no-referrer"},
                       // Another version of the daemon has another page, on the same address.
                       {"Cache-Control", "no-cache"}}};
 }
