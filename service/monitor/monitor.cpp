@@ -7,21 +7,13 @@
 #include "monitor/api.hpp"
 #include "monitor/collector.hpp"
 #include "monitor/http_server.hpp"
+#include "monitor/live_page.hpp"
 #include "monitor/socket.hpp"
 
 namespace gyrod::monitor {
 namespace {
 
 constexpr const char* kPrometheusText = "text/plain; version=0.0.4; charset=utf-8";
-constexpr const char* kIndex =
-    "<!DOCTYPE html>\n"
-    "<html lang=\"en\"><head><meta charset=\"utf-8\"><title>gyrod</title></head><body><h1>gyrod</h1><ul>\n"
-    "<li><a href=\"/api/v1/status\">/api/v1/status</a> and more as JSON</li>\n"
-    "<li><a href=\"/metrics\">/metrics</a> for Prometheus</li>\n"
-    "<li><a href=\"/healthz\">/healthz</a> 200 while the process answers</li>\n"
-    "<li><a href=\"/readyz\">/readyz</a> 200 when samples can be denoised, else 503 and why not</li>\n"
-    "</ul></body></html>\n";
-
 CollectorOptions collector_options(const MonitorOptions& options) {
   using std::chrono::duration;
   const auto start = std::chrono::steady_clock::now();
@@ -71,7 +63,7 @@ class Monitor::Impl {
     }
     if (path == "/healthz") return {.body = "ok\n"};
     if (path == "/readyz") return ready();
-    if (path == "/") return {.content_type = "text/html; charset=utf-8", .body = kIndex};
+    if (path == "/") return live_page();
     return {.status = 404, .body = "not here; see /\n"};
   }
 

@@ -14,7 +14,4 @@ namespace gyrod::report {
 /// The same for the page of `gyrod evaluate`.
 [[nodiscard]] std::string evaluation_page(const std::string& title, const Json& data);
 
-/// & < > " ' as character references.
-[[nodiscard]] std::string escape_html(std::string_view text);
-
 }  // namespace gyrod::report

@@ -1,9 +1,11 @@
 /// Scripts, styles and templates of gyrod's pages, built into the binary: pages load nothing from anywhere.
 ///
 ///     uplot.js, uplot.css, uplot.license   the plotting library, from npm, version pinned in package-lock.json
-///     page.css, charts.js, tabs.js         look, chart helpers and tabs that all pages share
+///     page.css, charts.js, parts.js        look, chart helpers, tables and figures that all pages share
+///     tabs.js                              tabs of the reports
 ///     report.html, report.css, report_figures.js, report.js   the report page (service/report)
 ///     evaluation.html, evaluation.js       the page of `gyrod evaluate`, with the report's styles and figure helpers
+///     live.html, live.css, live_*.js, live.js   the daemon's live page (service/monitor)
 #pragma once
 
 #include <string_view>

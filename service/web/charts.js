@@ -97,6 +97,14 @@ const gyrodCharts = (() => {
     }
   }
 
+  /// Gives a chart new data. One that shows all goes on to show all; one that is zoomed stays where it is.
+  function refresh(u, data) {
+    if (u.showsAll !== false) return u.setData(data, true);
+    const { min, max } = u.scales.x;
+    u.setData(data, false);
+    u.setScale("x", { min, max });
+  }
+
   function reset(charts) {
     for (const u of charts) u.setData(u.data, true);
   }
@@ -144,7 +152,12 @@ const gyrodCharts = (() => {
     const marker = (u, i) => (spec.series[i - 1]?.colour ? `var(${spec.series[i - 1].colour})` : "");
     const log = (s) => (s.log ? { distr: 3, log: 10 } : {});
     const range = spec.y.range ? { range: spec.y.range } : {};
-    const fixed = spec.x.range ? { range: (u, min, max) => (min === u.data[0][0] && max === u.data[0].at(-1) ? spec.x.range : [min, max]) } : {};
+    const rangeOfAll = (min, max) => spec.x.range ?? (spec.x.log ? uPlot.rangeLog(min, max, 10, true) : [min, max]);
+    const whole = (u, min, max) => {
+      u.showsAll = min === null || (min === u.data[0][0] && max === u.data[0].at(-1));
+      return !u.showsAll ? [min, max] : min === null ? (spec.x.range ?? [1, 10]) : rangeOfAll(min, max);
+    };
+    const fixed = spec.x.range || spec.live ? { range: whole } : {};
     return {
       width,
       height: spec.height,
@@ -177,7 +190,7 @@ const gyrodCharts = (() => {
   }
 
   /// Draws one chart into `host`, which it fills in width.
-  /// spec: label (what a blind reader is told), height, x and y {label, log, range, show, whole, small, marks}, series [{label, colour,
+  /// spec: label (what a blind reader is told), height, live (its data will be refreshed), x and y {label, log, range, show, whole, small, marks}, series [{label, colour,
   /// width, dash, bars, points, unlisted, owns}], bands [{series, colour}], data [xs, ys...], sync, legend, under(u), over(u)
   function chart(host, spec) {
     const width = () => Math.max(host.clientWidth, 200);
@@ -191,8 +204,14 @@ const gyrodCharts = (() => {
       name.addEventListener("keydown", (event) => event.key === "Enter" && name.click());
     }
     u.fit = (to) => u.setSize({ width: to ?? width(), height: spec.height });
-    new ResizeObserver(() => host.clientWidth > 0 && host.clientWidth !== u.width && !printing && u.fit()).observe(host);
+    const resized = new ResizeObserver(() => host.clientWidth > 0 && host.clientWidth !== u.width && !printing && u.fit());
+    resized.observe(host);
     live.add(u);
+    u.remove = () => {
+      resized.disconnect();
+      live.delete(u);
+      u.destroy();
+    };
     return u;
   }
 
@@ -209,7 +228,8 @@ const gyrodCharts = (() => {
     ctx.moveTo(at, u.bbox.top);
     ctx.lineTo(at, u.bbox.top + u.bbox.height);
     ctx.stroke();
-    label(u, text, at + 5 * uPlot.pxRatio, u.bbox.top + 12 * uPlot.pxRatio);
+    const left = at < u.bbox.left + 0.75 * u.bbox.width; // there is room for the words on its right
+    label(u, text, at + (left ? 5 : -5) * uPlot.pxRatio, u.bbox.top + 12 * uPlot.pxRatio, left ? "left" : "right");
     ctx.restore();
   }
 
@@ -238,6 +258,18 @@ const gyrodCharts = (() => {
     ctx.globalAlpha = alpha;
     ctx.fillStyle = colour("--accent");
     ctx.fillRect(u.bbox.left, top, u.bbox.width, bottom - top);
+    ctx.restore();
+  }
+
+  /// Shades what lies between two places on the x axis, as far as it is in view.
+  function shade(u, from, to, name) {
+    const left = u.valToPos(Math.max(from, u.scales.x.min), "x", true);
+    const right = u.valToPos(Math.min(to, u.scales.x.max), "x", true);
+    if (!(right > left)) return;
+    const { ctx } = u;
+    ctx.save();
+    ctx.fillStyle = colour(name);
+    ctx.fillRect(left, u.bbox.top, right - left, u.bbox.height);
     ctx.restore();
   }
 
@@ -276,5 +308,5 @@ const gyrodCharts = (() => {
   window.addEventListener("afterprint", () => print(false));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 
-  return { page, chart, tools, keyboard, number, colour, verticalLine, horizontalLine, stripe, word, symmetric, tick };
+  return { page, chart, refresh, tools, keyboard, number, colour, verticalLine, horizontalLine, shade, stripe, word, symmetric, tick };
 })();

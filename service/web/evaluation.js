@@ -1,7 +1,8 @@
 "use strict";
 // Builds the page of an evaluation from the data that stand in it: evaluation.json, word for word.
 (() => {
-  const { element, single, kSchemeColours } = reportFigures;
+  const { element, single, table } = gyrodParts;
+  const { kSchemeColours } = reportFigures;
   const { number, tick } = gyrodCharts;
   const evaluation = JSON.parse(document.getElementById("data").textContent);
   const byId = (id) => document.getElementById(id);
@@ -9,41 +10,6 @@
   const colourOf = (name) => kColours[name] ?? "--accent";
   const kDrawn = new Set(["raw", "Butterworth", "Savitzky-Golay", "zero-phase Butterworth"]);
   const kStarred = new Set(["filter", "bound"]);
-
-  /// rows: lists of cells; a cell is a number, text, or {text, colour, className}. The first `words` columns hold words.
-  function table(parent, caption, heads, rows, words = 1) {
-    const box = element("div", undefined, "scroll");
-    box.tabIndex = 0;
-    box.setAttribute("role", "region");
-    box.setAttribute("aria-label", caption);
-    const made = element("table", undefined, "numbers");
-    made.append(element("caption", caption));
-    const head = made.createTHead().insertRow();
-    heads.forEach((text, i) => {
-      const cell = element("th", text, i < words ? "text" : undefined);
-      cell.scope = "col";
-      head.append(cell);
-    });
-    const body = made.createTBody();
-    for (const { cells, strong } of rows) {
-      const row = body.insertRow();
-      if (strong) row.className = "strong";
-      cells.forEach((cell, i) => fill(row.insertCell(), cell, i < words));
-    }
-    box.append(made);
-    parent.append(box);
-  }
-
-  function fill(place, cell, isWord) {
-    const rich = cell !== null && typeof cell === "object" ? cell : { text: typeof cell === "string" ? cell : number(cell) };
-    place.className = isWord ? "text" : "";
-    if (rich.colour) {
-      const swatch = element("span", undefined, "swatch");
-      swatch.style.background = `var(${rich.colour})`;
-      place.append(swatch);
-    }
-    place.append(element("span", rich.text, rich.className));
-  }
 
   const rowName = (row) => `${row.axis} axis${evaluation.rows.some((r) => r.noise_scale !== 1) ? `, noise × ${tick(row.noise_scale)}` : ""}`;
   const star = (estimator) => (kStarred.has(estimator.kind) ? `${estimator.name} *` : estimator.name);
@@ -69,7 +35,7 @@
     for (const caution of evaluation.cautions) byId("summary").append(element("p", caution, "absent"));
     const files = [["evaluation.json", "all numbers of this page"], ["evaluation.csv", "errors: a row an axis, noise, estimator and lag"], ["guards.csv", "guards"]];
     if (evaluation.rows.some((row) => row.turns.length > 0)) files.push(["turns.csv", "turns"]);
-    table(byId("files"), "All numbers of this page", ["file", "holds"], files.map((cells) => ({ cells })), 2);
+    table(byId("files"), "All numbers of this page", ["file", "holds"], files.map((cells) => ({ cells })), [0, 1]);
   }
 
   function summary(parent) {
@@ -86,7 +52,7 @@
         };
       });
     });
-    table(parent, `RMSE in deg/s with at most ${most} samples of lag`, ["row", "method", "its RMSE", "raw", "best filter *", "zero-phase *", "guards failed", "that filter"], rows, 2);
+    table(parent, `RMSE in deg/s with at most ${most} samples of lag`, ["row", "method", "its RMSE", "raw", "best filter *", "zero-phase *", "guards failed", "that filter"], rows, [0, 1]);
     parent.append(element("p", "* tuned on the truth, which no user can do. Bold: a method that is not tuned and still better than each of the causal filters that are.", "note"));
   }
 
@@ -105,7 +71,7 @@
       });
     }
     table(made, `RMSE in deg/s by lag, ${rowName(row)}`, ["estimator", "tuned to, at the largest lag", ...lags.map((l) => `lag ${l}`), "its own lag"],
-      row.estimators.map((e) => ({ strong: e.kind === "method", cells: [nameCell(e), last(e).tuning || "–", ...e.lags.map((l) => l.rmse_dps), e.kind === "bound" ? "–" : String(last(e).lag_samples)] })), 2);
+      row.estimators.map((e) => ({ strong: e.kind === "method", cells: [nameCell(e), last(e).tuning || "–", ...e.lags.map((l) => l.rmse_dps), e.kind === "bound" ? "–" : String(last(e).lag_samples)] })), [0, 1]);
     table(made, `More of the errors, at the largest lag, ${rowName(row)}`,
       ["estimator", "bias, deg/s", "angle in 10 s, deg", "spread", "angle in 60 s, deg", "spread", "scale factor", "correlation peak, samples", "normalised error"],
       row.estimators.map((e) => {
@@ -151,7 +117,7 @@
     const names = [...new Set(row.guards.map((g) => g.name))];
     const find = (name, guard) => row.guards.find((g) => g.name === name && g.guard === guard);
     table(made, `What an estimate must not do, lag ${evaluation.own_lag_samples}, ${rowName(row)}`, ["guard", ...names.map((n) => (n === "Butterworth" ? "Butterworth *" : n)), "limit"],
-      Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${tick(Number(find(names[0], guard).limit.toPrecision(3)))}`] })), names.length + 2);
+      Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${tick(Number(find(names[0], guard).limit.toPrecision(3)))}`] })), [...Array(names.length + 2).keys()]);
   }
 
   function turnsCard(parent, row) {
@@ -169,7 +135,7 @@
       });
     }
     table(made, `Turns in numbers, ${rowName(row)}`, ["turn", "estimator", "half, ms later than the truth", "95 %, ms after the start", "overshoot, %", "peak error, deg/s"],
-      row.turns.map((t) => ({ strong: t.name !== "Butterworth", cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), 2);
+      row.turns.map((t) => ({ strong: t.name !== "Butterworth", cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), [0, 1]);
   }
 
   function fillPanel(panel, row) {

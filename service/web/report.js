@@ -1,49 +1,11 @@
 "use strict";
 // Builds the report from the data that stand in the page: report.json, word for word.
 (() => {
-  const { element, absent, kSchemeColours } = reportFigures;
+  const { element, absent, table } = gyrodParts;
+  const { kSchemeColours } = reportFigures;
   const { number, tick } = gyrodCharts;
   const report = JSON.parse(document.getElementById("data").textContent);
   const byId = (id) => document.getElementById(id);
-
-  /// rows: [{cells, strong}]; a cell is text, a number, or {text, className, colour}. Columns of words: their numbers in `words`.
-  /// Those in `long` may break into lines, most of all the first of them.
-  function table(parent, caption, heads, rows, words = [0], long = []) {
-    const box = element("div", undefined, "scroll");
-    box.tabIndex = 0;
-    box.setAttribute("role", "region");
-    box.setAttribute("aria-label", caption);
-    const made = element("table", undefined, "numbers");
-    made.append(element("caption", caption));
-    const head = made.createTHead().insertRow();
-    heads.forEach((text, i) => {
-      const cell = element("th", text, words.includes(i) ? "text" : undefined);
-      cell.scope = "col";
-      head.append(cell);
-    });
-    const body = made.createTBody();
-    for (const { cells, strong } of rows) {
-      const row = body.insertRow();
-      if (strong) row.className = "strong";
-      cells.forEach((cell, i) => fill(row.insertCell(), cell, long.length > 1 && i === long[0] ? "text longest" : long.includes(i) ? "text long" : words.includes(i) ? "text" : ""));
-    }
-    box.append(made);
-    parent.append(box);
-  }
-
-  function fill(place, cell, className) {
-    place.className = className;
-    if (cell !== null && typeof cell === "object") {
-      if (cell.colour) {
-        const swatch = element("span", undefined, "swatch");
-        swatch.style.background = `var(${cell.colour})`;
-        place.append(swatch);
-      }
-      place.append(element("span", cell.text, cell.className));
-    } else {
-      place.append(typeof cell === "string" ? cell : number(cell));
-    }
-  }
 
   const schemeCell = (scheme) => ({ text: scheme, colour: kSchemeColours[scheme] });
   const section = (parent, title) => {

@@ -1,46 +1,12 @@
 "use strict";
 // The figures of the report. Each function draws one into `parent`; `axis` is report.axes.x, .y or .z.
 const reportFigures = (() => {
-  const { chart, tools, keyboard, number, verticalLine, horizontalLine, stripe, word, symmetric } = gyrodCharts;
+  const { chart, number, verticalLine, horizontalLine, stripe, word, symmetric } = gyrodCharts;
+  const { element, frame, single } = gyrodParts;
   const kSchemeColours = { raw: "--raw", direct: "--direct", emd: "--emd", "acf-emd": "--acf-emd", improved: "--improved" };
-
-  function element(tag, text, className) {
-    const made = document.createElement(tag);
-    if (text !== undefined) made.textContent = text;
-    if (className) made.className = className;
-    return made;
-  }
-
-  /// Says in a figure's or table's place why it is not there.
-  function absent(parent, what, reason) {
-    parent.append(element("p", `${what} cannot be shown: ${reason}`, "absent"));
-  }
 
   /// x values of a trace with even steps.
   const grid = (trace, values, start = 0) => values.map((_, i) => start + i * trace.step_s);
-
-  /// A figure with caption and room for its plot. @return {plot, finish(charts)}
-  function frame(parent, title, note, className = "single") {
-    const figure = element("figure", undefined, className);
-    const caption = element("figcaption");
-    caption.append(element("span", title, "title"));
-    const plot = element("div", undefined, "plot");
-    figure.append(caption, plot);
-    if (note) figure.append(element("p", note, "note"));
-    parent.append(figure);
-    const finish = (charts) => {
-      caption.append(tools(charts, title));
-      plot.setAttribute("role", "group");
-      plot.setAttribute("aria-label", `${title}. Keys: plus and minus zoom, arrows move, 0 shows all.`);
-      keyboard(plot, charts);
-    };
-    return { figure, plot, finish };
-  }
-
-  function single(parent, title, note, spec) {
-    const { plot, finish } = frame(parent, title, note);
-    finish([chart(plot, { height: 280, label: title, ...spec })]);
-  }
 
   /// One row a series under one another, all with the same time axis. rows: [{name, detail, className, xs, ys, colour}]
   function stack(parent, title, note, rows, x, unit, sync) {
@@ -197,5 +163,5 @@ const reportFigures = (() => {
     }
   }
 
-  return { element, absent, single, kSchemeColours, record, imfs, acfs, pcc, acfVariance, beforeAfter, allan, errors };
+  return { kSchemeColours, record, imfs, acfs, pcc, acfVariance, beforeAfter, allan, errors };
 })();

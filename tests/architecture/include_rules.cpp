@@ -38,7 +38,7 @@ const std::vector<Room>& rooms() {
        {"core/", "stream", "ros2", "fleet"},
        {"dds/", "gyrod.h", "sensor_msgs_imu.h", "openssl/", "sys/", "unistd.h"}},
       {"monitor",
-       {"core/", "stream", "live"},
+       {"core/", "stream", "live", "web"},
        {"prometheus/", "httplib.h", "nlohmann/", "openssl/", "crypt.h", "arpa/inet.h", "netdb.h", "netinet/",
         "poll.h", "sys/", "unistd.h"}},
       {"settings", {"core/", "stream", "ros2", "fleet"}, {"nlohmann/", "valijson/"}},

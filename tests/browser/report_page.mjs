@@ -1,21 +1,12 @@
-// Opens reports in Chromium and looks at them as a reader would. Environment: GYROD_BINARY, GYROD_CHROMIUM, GYROD_PLAYWRIGHT
-// (folder of playwright-core). Exit code 0: all held.
+// Opens reports in Chromium and looks at them as a reader would. Environment: see harness.mjs.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { conclude, expect, launch } from "./harness.mjs";
 
-const { chromium } = await import(pathToFileURL(join(process.env.GYROD_PLAYWRIGHT, "index.mjs")));
 const folder = mkdtempSync(join(tmpdir(), "gyrod-report-"));
-let failures = 0;
-
-function expect(holds, what) {
-  if (holds) return;
-  failures += 1;
-  console.error(`FAILED: ${what}`);
-}
-
 const gyrod = (...args) => execFileSync(process.env.GYROD_BINARY, args, { stdio: ["ignore", "ignore", "pipe"] });
 
 function simulated(name, ...args) {
@@ -181,7 +172,7 @@ const kEvaluationTables = ["RMSE in deg/s with", "RMSE in deg/s by lag", "More o
 const kNavigationFigures = ["Fig. 11", "Fig. 12", "Fig. 13"];
 const kNavigationTables = ["Table 7", "Table 8", "Table 9"];
 
-const browser = await chromium.launch({ executablePath: process.env.GYROD_CHROMIUM, args: ["--no-sandbox"] });
+const browser = await launch();
 try {
   const still = report(withAccelerometer(simulated("still.csv", "--seconds", "90", "--seed", "3")), "still");
   const drive = report(simulated("drive.csv", "--motion", "drive", "--seconds", "120", "--seed", "5"), "drive");
@@ -222,5 +213,4 @@ try {
   await browser.close();
   rmSync(folder, { recursive: true });
 }
-console.log(failures === 0 ? "all held" : `${failures} did not hold`);
-process.exitCode = failures === 0 ? 0 : 1;
+conclude();
