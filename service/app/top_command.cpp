@@ -95,7 +95,7 @@ bool wants_colour(const TopFlags& flags) {
 
 /// Until q or a signal.
 int look(const TopFlags& flags, top::Client& client, Interrupt& interrupt) {
-  constexpr std::chrono::milliseconds kPatience{100};
+  constexpr std::chrono::milliseconds kKeyWait{100};
   const bool coloured = wants_colour(flags);
   top::View view = flags.view;
   top::Poller poller(client);
@@ -112,7 +112,7 @@ int look(const TopFlags& flags, top::Client& client, Interrupt& interrupt) {
     std::string frame = top::painted(top::screen(known.picture, view, size), size, coloured);
     if (frame != shown) top::Terminal::write(frame);
     shown = std::move(frame);
-    if (!top::Terminal::read(bytes, kPatience)) return kDone;
+    if (!top::Terminal::read(bytes, kKeyWait)) return kDone;
     for (const top::KeyPress key : top::keys_of(bytes))
       going = going && top::press(view, key, matching, rows);
   }
