@@ -34,7 +34,7 @@ Settings all_changed() {
     } else if constexpr (std::is_same_v<Member, std::string>) {
       member += "x";
     } else {
-      member.emplace_back("x");
+      member.resize(member.size() + 1);
     }
   });
   return settings;
@@ -61,6 +61,7 @@ TEST(SettingsDump, TheDefaultsAreReadAgainAsTheDefaults) {
 TEST(SettingsDump, WhatIsSetIsReadAgain) {
   const std::string text = R"({"bus": {"domain": 7, "shard": "2/3", "topics": {"raw": "a/b"},
         "input": {"reliability": "best_effort", "partitions": ["car*", "\u00e9"]}, "output": {"takeover_s": 0.25},
+        "topic_qos": [{"topic": "a/b", "reliability": "reliable"}],
         "ros2": {"denoised_suffix": "_quiet"}},
       "denoise": {"method": "paper", "scheme": "raw", "window_samples": 512, "max_signal_hz": 12.5},
       "limits": {"forget_after_s": 1234.5}, "health": {"noisy_ratio": 1.75}, "workers": 3,
