@@ -94,8 +94,8 @@ bool wants_colour(const TopFlags& flags) {
 }
 
 /// Until q or a signal.
-int look(const TopFlags& flags, top::Client& client, Interrupt& interrupt) {
-  constexpr std::chrono::milliseconds kPatience{100};
+int watch(const TopFlags& flags, top::Client& client, Interrupt& interrupt) {
+  constexpr std::chrono::milliseconds kKeyWait{100};
   const bool coloured = wants_colour(flags);
   top::View view = flags.view;
   top::Poller poller(client);
@@ -112,7 +112,7 @@ int look(const TopFlags& flags, top::Client& client, Interrupt& interrupt) {
     std::string frame = top::painted(top::screen(known.picture, view, size), size, coloured);
     if (frame != shown) top::Terminal::write(frame);
     shown = std::move(frame);
-    if (!top::Terminal::read(bytes, kPatience)) return kDone;
+    if (!top::Terminal::read(bytes, kKeyWait)) return kDone;
     for (const top::KeyPress key : top::keys_of(bytes))
       going = going && top::press(view, key, matching, rows);
   }
@@ -132,7 +132,7 @@ int run_top(TopFlags flags, Interrupt& interrupt) {
     throw CLI::ValidationError("top", "needs a terminal; --once prints a table instead");
   try {
     top::Client client(address, credentials_of(flags));
-    if (!flags.once && !flags.json) return look(flags, client, interrupt);
+    if (!flags.once && !flags.json) return watch(flags, client, interrupt);
     interrupt.let_through();
     return once(flags, client);
   } catch (const top::Unreachable& error) {
