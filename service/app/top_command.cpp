@@ -94,7 +94,7 @@ bool wants_colour(const TopFlags& flags) {
 }
 
 /// Until q or a signal.
-int look(const TopFlags& flags, top::Client& client, Interrupt& interrupt) {
+int watch(const TopFlags& flags, top::Client& client, Interrupt& interrupt) {
   constexpr std::chrono::milliseconds kKeyWait{100};
   const bool coloured = wants_colour(flags);
   top::View view = flags.view;
@@ -132,7 +132,7 @@ int run_top(TopFlags flags, Interrupt& interrupt) {
     throw CLI::ValidationError("top", "needs a terminal; --once prints a table instead");
   try {
     top::Client client(address, credentials_of(flags));
-    if (!flags.once && !flags.json) return look(flags, client, interrupt);
+    if (!flags.once && !flags.json) return watch(flags, client, interrupt);
     interrupt.let_through();
     return once(flags, client);
   } catch (const top::Unreachable& error) {

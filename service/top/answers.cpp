@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-[[noreturn]] void refuse(const std::string& key, const char* expected) {
+[[noreturn]] void break_off(const std::string& key, const char* expected) {
   throw AnswerError("the answer is not that of gyrod's API: expected " + std::string(expected) + " as " +
                     key);
 }
@@ -23,38 +23,38 @@ class Field {
 
   [[nodiscard]] Field operator[](const char* key) const {
     static const Json none;
-    if (!value_->is_object()) refuse(path_, "an object");
+    if (!value_->is_object()) break_off(path_, "an object");
     const auto found = value_->find(key);
     return {found == value_->end() ? none : *found, path_ + "." + key};
   }
   [[nodiscard]] Figure figure() const {
     if (value_->is_null()) return std::nullopt;
-    if (!value_->is_number()) refuse(path_, "a number or null");
+    if (!value_->is_number()) break_off(path_, "a number or null");
     return value_->get<double>();
   }
   [[nodiscard]] std::uint64_t count() const {
-    if (!value_->is_number_unsigned()) refuse(path_, "a count");
+    if (!value_->is_number_unsigned()) break_off(path_, "a count");
     return value_->get<std::uint64_t>();
   }
   [[nodiscard]] std::optional<bool> truth() const {
     if (value_->is_null()) return std::nullopt;
-    if (!value_->is_boolean()) refuse(path_, "true or false");
+    if (!value_->is_boolean()) break_off(path_, "true or false");
     return value_->get<bool>();
   }
   [[nodiscard]] std::string text() const {
-    if (!value_->is_string()) refuse(path_, "text");
+    if (!value_->is_string()) break_off(path_, "text");
     return printable(value_->get_ref<const std::string&>());
   }
   [[nodiscard]] std::string text_or_none() const { return value_->is_null() ? std::string{} : text(); }
   [[nodiscard]] std::map<std::string, std::uint64_t> counts() const {
-    if (!value_->is_object()) refuse(path_, "an object");
+    if (!value_->is_object()) break_off(path_, "an object");
     std::map<std::string, std::uint64_t> all;
     for (const auto& [key, value] : value_->items())
       all[printable(key)] = Field(value, path_ + "." + printable(key)).count();
     return all;
   }
   [[nodiscard]] std::vector<Field> list() const {
-    if (!value_->is_array()) refuse(path_, "a list");
+    if (!value_->is_array()) break_off(path_, "a list");
     std::vector<Field> all;
     for (const Json& item : *value_) all.emplace_back(item, path_ + "[" + std::to_string(all.size()) + "]");
     return all;

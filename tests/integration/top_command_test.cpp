@@ -53,6 +53,26 @@ class Server {
 
 class Top : public Rig {};
 
+TEST_F(Top, UnderstandsARealGyrod) {
+  const auto daemon = start_daemon({});
+  const std::string url = "127.0.0.1:" + std::to_string(port_of(*daemon));
+  const auto nobody = run({"top", url, "--once"});
+  EXPECT_EQ(nobody.exit_code, 6) << nobody.err;
+  EXPECT_THAT(nobody.err, HasSubstr("no gyro has sent anything yet"));
+
+  const auto sensor = start_on_bus({"simulate", "--sensor", "front/left", "--batch", "5"});
+  EXPECT_TRUE(eventually([&] {
+    const auto table =
+        run({"top", url, "--once", "--search", "t/le", "--health", "warming_up,ok", "--sort", "noise_in"});
+    return table.exit_code == 0 && table.out.find(" front/left 100.0") != std::string::npos;
+  }));
+  for (const char* sort : {"health", "sensor", "reduction", "rate"})
+    EXPECT_THAT(run({"top", url, "--json", "--sort", sort}).out, HasSubstr("\"sensor\": \"front/left\""));
+  sensor->signal(SIGTERM);
+  sensor->wait();
+  EXPECT_EQ(stop_daemon(*daemon), 0);
+}
+
 TEST_F(Top, PrintsOneTableAndSaysByItsExitCodeWhetherAllIsWell) {
   Server well;
   well.sensors(sensor_json("front", "ok"), 1);

@@ -177,6 +177,7 @@ const losses = [
     from: 0,
     targets: [
       query(`gyrod_bus_matched_writers${of}`, "writers that send"),
+      query(`sum by (topic) (gyrod_bus_matched_readers${of})`, "readers of {{topic}}"),
       query(`sum(gyrod_bus_incompatible_peers${of})`, "peers that do not match"),
       query(`increase(gyrod_bus_malformed_messages_total${of}[5m])`, "malformed messages in 5 min"),
       query(`increase(gyrod_bus_refusals_total${of}[5m])`, "refusals in 5 min"),
