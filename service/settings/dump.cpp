@@ -37,7 +37,7 @@ std::string text_of(const Settings& settings) {
       group = &(*group)[std::string(key.substr(0, dot))];
       key.remove_prefix(dot + 1);
     }
-    (*group)[std::string(key)] = value;
+    (*group)[std::string(key)] = nlohmann::json(value);
   });
   return root.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
