@@ -13,6 +13,7 @@
   let status = null;
   let heardAt_s = null;
   let alive = false;
+  let missed = true; // events may have come that nobody told us
 
   const open = (sensor) => set({ sensor });
   const overview = gyrodDaemon.overview(byId("overview"));
@@ -55,8 +56,9 @@
       epoch = data.epoch;
       gyrodEvents.begin(epoch);
       if (restarted) channel.begin();
-      fetchEvents();
     }
+    if (missed) fetchEvents();
+    missed = false;
     gyrodDaemon.vitals(byId("vitals"), data);
     overview.update(data);
     say("trouble", data.ready ? "" : `gyrod cannot denoise: ${data.ready_reason ?? "it does not say why"}.`);
@@ -78,6 +80,7 @@
 
   function connected() {
     alive = true;
+    missed = true;
     document.body.classList.remove("stale");
     byId("link").textContent = "live";
     byId("link").dataset.tone = "green";
