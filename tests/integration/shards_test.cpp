@@ -105,6 +105,12 @@ TEST_F(Shards, ThreeDaemonsServeEachSensorExactlyOnceAtFivePercentLoss) {
     })) << i;
   }
   const auto recorder = start_recorder_here(kLoss);
+  for (std::size_t i = 1; i <= 3; ++i) {
+    ASSERT_TRUE(eventually([&] {
+      return metric_on(1 + i, *daemons[i - 1], "gyrod_bus_matched_readers{topic=\"gyro/denoised\"}") == 1.0;
+    })) << "what is sent before the recorder is found is not for it: "
+        << i;
+  }
   const auto sensors = start_sensors({"--samples", std::to_string(kSamples)}, kLoss);
   ASSERT_EQ(sensors->wait(), 0) << sensors->err();
 
