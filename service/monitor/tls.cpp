@@ -59,7 +59,8 @@ void use_certificates(SSL_CTX* context, const std::string& file) {
   const std::string text = read_file(file);
   const Owned<BIO> bio = bio_of(text);
   const Owned<X509> ours(PEM_read_bio_X509(bio.get(), nullptr, no_passphrase, nullptr));
-  if (ours == nullptr) throw AccessError(file, "no certificate (" + openssl_reason() + "); expected one in PEM");
+  if (ours == nullptr)
+    throw AccessError(file, "no certificate (" + openssl_reason() + "); expected one in PEM");
   check_time(file, ours.get());
   if (SSL_CTX_use_certificate(context, ours.get()) != 1)
     throw AccessError(file, "the certificate cannot be used: " + openssl_reason());
@@ -75,7 +76,8 @@ void use_key(SSL_CTX* context, const std::string& file, const std::string& certi
   const Owned<EVP_PKEY> key(PEM_read_bio_PrivateKey(bio_of(text).get(), nullptr, no_passphrase, nullptr));
   OPENSSL_cleanse(text.data(), text.size());
   if (key == nullptr)
-    throw AccessError(file, "no private key (" + openssl_reason() + "); expected one in PEM, without a passphrase");
+    throw AccessError(file,
+                      "no private key (" + openssl_reason() + "); expected one in PEM, without a passphrase");
   const bool fits =
       SSL_CTX_use_PrivateKey(context, key.get()) == 1 && SSL_CTX_check_private_key(context) == 1;
   ERR_clear_error();

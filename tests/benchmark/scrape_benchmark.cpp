@@ -77,8 +77,10 @@ void second_of_stream(benchmark::State& state) {
   View view = copying_view_of(shown);
   view.live = &live;
   const Api api(api_options(now_s), view);
-  const Answer answer =
-      api.answer({.path = "/api/v1/stream", .raw_path = "/api/v1/stream", .query = {{"channels", "1"}}, .last_event_id = {}});
+  const Answer answer = api.answer({.path = "/api/v1/stream",
+                                    .raw_path = "/api/v1/stream",
+                                    .query = {{"channels", "1"}},
+                                    .last_event_id = {}});
   std::string text;
   for (auto unused : state) {
     for (auto& channel : shown.channels) ++channel.counts.received;

@@ -42,8 +42,8 @@ TEST(Page, LoadsNothingAndItsPolicyLetsOnlyItsOwnScriptsRun) {
   const std::string page = report_page("t", Json::object());
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   EXPECT_THAT(page, Not(HasSubstr("unsafe")));
-  for (const char* name : {"uplot.js", "charts.js", "parts.js", "tabs.js", "report_figures.js", "report.js", "uplot.css",
-                           "page.css", "report.css"}) {
+  for (const char* name : {"uplot.js", "charts.js", "parts.js", "tabs.js", "report_figures.js", "report.js",
+                           "uplot.css", "page.css", "report.css"}) {
     EXPECT_THAT(page, HasSubstr("'" + std::string(web::asset_hash(name)) + "'")) << name;
     EXPECT_THAT(page, HasSubstr(std::string(web::asset(name)))) << name;
   }
