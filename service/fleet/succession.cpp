@@ -1,6 +1,7 @@
 #include "fleet/succession.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace gyrod::fleet {
 namespace {
@@ -19,10 +20,14 @@ void Succession::watch(std::string_view sensor, std::int64_t stamp_ns, std::int6
   auto found = watched_.find(sensor);
   if (found == watched_.end()) {
     if (watched_.size() == kMostSensors) return;
-    found = watched_.emplace(sensor, Watched{}).first;
+    found = watched_.emplace(sensor, Watched{.period_began_ns = now_ns}).first;
   }
-  std::int64_t& least = found->second.least_delay_ns;
-  least = std::min(least, difference(now_ns, stamp_ns));
+  Watched& watched = found->second;
+  if (now_ns - watched.period_began_ns >= kMemoryNs) {
+    watched.least_before_ns = std::exchange(watched.least_delay_ns, INT64_MAX);
+    watched.period_began_ns = now_ns;
+  }
+  watched.least_delay_ns = std::min(watched.least_delay_ns, difference(now_ns, stamp_ns));
 }
 
 bool Succession::may_have_been_served(std::string_view sensor, std::int64_t stamp_ns,
@@ -31,7 +36,7 @@ bool Succession::may_have_been_served(std::string_view sensor, std::int64_t stam
   const auto found = watched_.find(sensor);
   if (found == watched_.end()) return false;
   const Watched& watched = found->second;
-  const std::int64_t sent_ns = sum(stamp_ns, watched.least_delay_ns);
+  const std::int64_t sent_ns = sum(stamp_ns, std::min(watched.least_delay_ns, watched.least_before_ns));
   const bool before = watched.taken_ns != kNotTaken && now_ns - watched.taken_ns <= kLongestNs &&
                       sent_ns < watched.taken_ns + kMarginNs;
   if (!before) watched_.erase(found);

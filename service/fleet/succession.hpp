@@ -14,17 +14,19 @@ namespace gyrod::fleet {
 /// is not enough that one serves after the other; the second must leave out what the first may have served: all that was sent before the
 /// second learned that the first has stopped.
 ///
-/// When a sample was sent is told by its stamp and the least that `time of arrival - stamp` has been while the sensor was watched. That
-/// needs no clocks that agree, and errs to the later side of a hole: nothing twice. A sensor whose clock does not keep the pace of ours is
-/// given up on after kLongest.
+/// When a sample was sent is told by its stamp and the least that `time of arrival - stamp` has been in the last half a minute to a
+/// minute. That needs no clocks that agree, nor such that keep the same pace for long, and errs to the later side of a hole: nothing
+/// twice. A sensor whose clock is set back just then is given up on after kLongest.
 ///
 /// Times are ns of one steady clock. Allocates for a sensor that was not watched before. One thread at a time.
 class Succession {
  public:
   /// Two ways through the network differ by less, in the least time they take.
   static constexpr std::int64_t kMarginNs = 20'000'000;
-  /// No sample that arrives later than this after a take-over is left out.
-  static constexpr std::int64_t kLongestNs = 1'000'000'000;
+  /// No sample that arrives later than this after a take-over is left out. Where one packet in five is lost, repairs take seconds.
+  static constexpr std::int64_t kLongestNs = 10'000'000'000;
+  /// A delay is remembered for one to two of these: a clock that is wrong by 100 ppm goes 6 ms astray.
+  static constexpr std::int64_t kMemoryNs = 30'000'000'000;
   /// Sensors that are watched at the most; of further ones nothing is left out.
   static constexpr std::size_t kMostSensors = 65536;
 
@@ -49,7 +51,9 @@ class Succession {
   static constexpr std::int64_t kNotTaken = INT64_MIN;
 
   struct Watched {
-    std::int64_t least_delay_ns = INT64_MAX;
+    std::int64_t least_delay_ns = INT64_MAX;   ///< since period_began_ns
+    std::int64_t least_before_ns = INT64_MAX;  ///< in the period before that
+    std::int64_t period_began_ns = 0;
     std::int64_t taken_ns = kNotTaken;
   };
   struct Hash {
