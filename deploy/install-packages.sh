@@ -22,3 +22,12 @@ echo "installing: ${missing[*]}"
 export DEBIAN_FRONTEND=noninteractive
 "${as_root[@]}" apt-get update -qq
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+
+# What tests start for themselves is not to run, and to listen, beside them.
+if [ -d /run/systemd/system ]; then
+  for service in prometheus prometheus-alertmanager victoria-metrics; do
+    case " ${missing[*]} " in
+      *" $service "*) "${as_root[@]}" systemctl disable --quiet --now "$service" || echo "install-packages: $service still runs" >&2 ;;
+    esac
+  done
+fi
