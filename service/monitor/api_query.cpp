@@ -12,9 +12,9 @@ namespace {
 template <class Number>
 std::optional<Number> parsed(std::string_view text) {
   Number value{};
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = stop == text.data() + text.size();
+  return error == std::errc{} && whole ? std::optional(value) : std::nullopt;
 }
 
 std::string joined(std::initializer_list<std::string_view> words) {

@@ -16,7 +16,7 @@ namespace gyrod::monitor {
 class SensorExposition {
  public:
   /// @param groups families in their order
-  explicit SensorExposition(std::initializer_list<std::span<const SensorMetric>> groups);
+  SensorExposition(std::initializer_list<std::span<const SensorMetric>> groups);
 
   void add(const stream::ChannelSnapshot& sensor);
   [[nodiscard]] std::size_t sensors() const noexcept { return sensors_; }

@@ -94,7 +94,7 @@ std::string Client::refusal(int status, const std::string& target, const std::st
   if (status == kNoSuch && words.empty())
     return url_ + " has no " + target.substr(0, target.find('?')) +
            ": is it a gyrod, and as new as this one?";
-  const std::string said = url_ + " answers " + std::to_string(status) + (words.empty() ? "" : ", " + words);
+  std::string said = url_ + " answers " + std::to_string(status) + (words.empty() ? "" : ", " + words);
   if (status != kWho) return said;
   return said + (tells_who_ ? ": it does not know the token or user that was given"
                             : ": give --token-file or --user-file");
