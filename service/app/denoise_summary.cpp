@@ -10,20 +10,6 @@
 namespace gyrod::app {
 namespace {
 
-const char* words_for(stream::NoiseSource source) {
-  switch (source) {
-    case stream::NoiseSource::kImf1:
-      return "imf1";
-    case stream::NoiseSource::kStandstill:
-      return "standstill";
-    case stream::NoiseSource::kCalibrated:
-      return "calibrated";
-    case stream::NoiseSource::kNone:
-      break;
-  }
-  return "none";
-}
-
 /// What became of the samples.
 nlohmann::ordered_json samples_json(const stream::Counts& counts) {
   nlohmann::ordered_json rejected = nlohmann::ordered_json::object();
@@ -79,7 +65,7 @@ void DenoiseSummary::add(const stream::NoiseReport& report) {
 
 std::string DenoiseSummary::noise_words() const {
   if (noise_source_ == stream::NoiseSource::kNone) return "noise by the record itself";
-  return "noise source " + std::string(words_for(noise_source_)) + " from sample " +
+  return "noise source " + std::string(stream::name_of(noise_source_)) + " from sample " +
          std::to_string(noise_source_since_) + " on";
 }
 
@@ -125,7 +111,7 @@ std::string DenoiseSummary::json(const Source& source, const stream::Counts& cou
                                           {"windows", counts.windows},
                                           {"model_misfits", counts.misfits},
                                           {"noise",
-                                           {{"source", words_for(noise_source_)},
+                                           {{"source", stream::name_of(noise_source_)},
                                             {"since_sample", noise_source_since_},
                                             {"windows_at_rest", windows_at_rest_}}},
                                           {"axes", axes_json(source.whole_record)}};

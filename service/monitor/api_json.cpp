@@ -12,36 +12,6 @@ Json json_if_known(double value) { return value > 0.0 ? json_of(value) : Json(nu
 
 Json json_of_stamp(std::int64_t stamp_ns) { return std::to_string(stamp_ns); }
 
-std::string_view name_of(stream::ChannelState state) noexcept {
-  switch (state) {
-    case stream::ChannelState::kActive:
-      break;
-    case stream::ChannelState::kSilent:
-      return "silent";
-    case stream::ChannelState::kDeadlineMissed:
-      return "deadline_missed";
-    case stream::ChannelState::kLivelinessLost:
-      return "liveliness_lost";
-    case stream::ChannelState::kEnded:
-      return "ended";
-  }
-  return "active";
-}
-
-std::string_view name_of(stream::NoiseSource source) noexcept {
-  switch (source) {
-    case stream::NoiseSource::kNone:
-      break;
-    case stream::NoiseSource::kImf1:
-      return "imf1";
-    case stream::NoiseSource::kStandstill:
-      return "standstill";
-    case stream::NoiseSource::kCalibrated:
-      return "calibrated";
-  }
-  return "none";
-}
-
 Json json_of(const stream::Counts& counts) {
   Json rejected;
   for (std::size_t i = 0; i < stream::kRejectReasons; ++i)

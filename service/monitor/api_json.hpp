@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -21,9 +20,6 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json json_if_known(double value);
 /// Beyond what a double holds, so a text of digits.
 [[nodiscard]] Json json_of_stamp(std::int64_t stamp_ns);
-
-[[nodiscard]] std::string_view name_of(stream::ChannelState state) noexcept;
-[[nodiscard]] std::string_view name_of(stream::NoiseSource source) noexcept;
 
 /// {"received": .., ..., "rejected": {"not_finite": .., ...}, "rejected_total": ..}: all of Counts.
 [[nodiscard]] Json json_of(const stream::Counts& counts);

@@ -149,11 +149,11 @@ Json json_of(const ChannelRow& row, const live::Live* history) {
   }
   return {{"sensor", row.sensor},
           {"health", stream::name_of(row.health)},
-          {"state", name_of(row.state)},
+          {"state", stream::name_of(row.state)},
           {"sample_rate_hz", json_of(row.sample_rate_hz)},
           {"hop_samples", row.hop_samples},
           {"overload_step", row.overload_step},
-          {"noise_source", name_of(row.noise_source)},
+          {"noise_source", stream::name_of(row.noise_source)},
           {"at_rest", row.at_rest ? Json(*row.at_rest) : Json(nullptr)},
           {"received", row.received},
           {"published", row.published},

@@ -6,6 +6,36 @@
 
 namespace gyrod::stream {
 
+std::string_view name_of(ChannelState state) noexcept {
+  switch (state) {
+    case ChannelState::kActive:
+      break;
+    case ChannelState::kSilent:
+      return "silent";
+    case ChannelState::kDeadlineMissed:
+      return "deadline_missed";
+    case ChannelState::kLivelinessLost:
+      return "liveliness_lost";
+    case ChannelState::kEnded:
+      return "ended";
+  }
+  return "active";
+}
+
+std::string_view name_of(NoiseSource source) noexcept {
+  switch (source) {
+    case NoiseSource::kNone:
+      break;
+    case NoiseSource::kImf1:
+      return "imf1";
+    case NoiseSource::kStandstill:
+      return "standstill";
+    case NoiseSource::kCalibrated:
+      return "calibrated";
+  }
+  return "none";
+}
+
 std::string_view name_of(RejectReason reason) noexcept {
   static constexpr std::array<std::string_view, kRejectReasons> kNames = {
       "not_finite",        "out_of_range",  "duplicate",     "out_of_order", "time_backwards",

@@ -81,6 +81,9 @@ enum class ChannelState : std::uint8_t {
   kEnded,           ///< its writer said so, or is gone
 };
 
+/// Stable snake_case name.
+[[nodiscard]] std::string_view name_of(ChannelState state) noexcept;
+
 [[nodiscard]] constexpr bool is_silent(ChannelState state) noexcept {
   return state != ChannelState::kActive && state != ChannelState::kEnded;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace gyrod::stream {
 
@@ -50,6 +51,9 @@ enum class NoiseSource : std::uint32_t {
   kStandstill = 2,  ///< learned online at rest
   kCalibrated = 3,  ///< from a still recording or the data sheet
 };
+
+/// Stable snake_case name, as used in the API and in summaries.
+[[nodiscard]] std::string_view name_of(NoiseSource source) noexcept;
 
 /// One sample as it leaves, with the sequence number and stamp it came with.
 struct DenoisedSample {
