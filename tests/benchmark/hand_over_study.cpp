@@ -1,8 +1,10 @@
 // Whether one sees where a new model takes over, on a car's reference gyro plus the noise of a still one (samples 2400..9600 of
 // support/drive_rows.hpp): the table of docs/method.md, "Hand-overs".
 //   GYROD_DATA=... hand_over_study
-// For lag 16 and lag 0: what the new model makes of the same samples less what the old one made of them (rms and largest), the largest step
-// between answers where models change, and the largest elsewhere; all in standard deviations of the steps elsewhere.
+//   GYROD_DATA=... hand_over_study at_once
+// For lag 16 and lag 0: what the new model's answer is less what the old one's was (rms and largest), the largest step
+// between answers where models change, and the largest elsewhere; all in standard deviations of the steps elsewhere. `at_once`: without
+// taking back what the new model makes of the same samples.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include <cstdio>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/joint/joint_fit.hpp"
@@ -27,7 +30,7 @@ constexpr std::size_t kWindow = 1024;
 /// A bank, and what its answers did.
 class Watched {
  public:
-  explicit Watched(std::size_t lag) : lag_(lag), bank_({}, lag) {}
+  Watched(const core::JointOptions& options, std::size_t lag) : lag_(lag), bank_(options, lag) {}
 
   void use(const core::JointModel& model, bool judged) {
     const double before = bank_.held(lag_).rate;
@@ -74,10 +77,10 @@ class Watched {
   double count_ = 0.0;
 };
 
-void study(const test::DriveRow& row) {
+void study(const test::DriveRow& row, const core::JointOptions& options) {
   const core::NoiseModel noise = core::scaled(core::still_noise(row.still_dps).value(), core::kNoiseMargin);
   core::JointFit fit(kWindow);
-  std::array<Watched, 2> banks = {Watched(16), Watched(0)};
+  std::array<Watched, 2> banks = {Watched(options, 16), Watched(options, 0)};
   const auto model = std::make_unique<core::JointModel>();
   core::WindowReport report;
   for (std::size_t t = 0; t < test::kJudgedEnd + 16; ++t) {
@@ -98,12 +101,14 @@ void study(const test::DriveRow& row) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   if (!test::has_drive_rows()) {
     std::fprintf(stderr, "hand_over_study: no recordings in %s\n", test::data_folder().c_str());
     return 1;
   }
+  core::JointOptions options;
+  if (argc > 1 && std::string_view(argv[1]) == "at_once") options.hand_over_memory = 0.0;
   std::printf("%-12s | lag 16: jump rms, largest; step there, elsewhere | lag 0: the same\n", "row");
-  for (const test::DriveRow& row : test::drive_rows()) study(row);
+  for (const test::DriveRow& row : test::drive_rows()) study(row, options);
   return 0;
 }

@@ -86,7 +86,7 @@ void step(benchmark::State& state) {
   }
   state.counters["states"] = static_cast<double>(model.members[0].states);
 }
-BENCHMARK(step)->ArgsProduct({{4, 6}, {0, 16, 32}})->Unit(benchmark::kNanosecond);
+BENCHMARK(step)->ArgsProduct({{4, 6, 7}, {0, 16, 32}})->Unit(benchmark::kNanosecond);
 
 void hand_over(benchmark::State& state) {
   const JointModel model = fitted(0, true);
@@ -174,7 +174,7 @@ void part_design(benchmark::State& state) {
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(designer.design(blocks, 0.5, member));
   state.counters["states"] = static_cast<double>(member.states);
 }
-BENCHMARK(part_design)->DenseRange(0, 5)->Unit(benchmark::kMicrosecond);
+BENCHMARK(part_design)->DenseRange(0, 6)->Unit(benchmark::kMicrosecond);
 
 void riccati(benchmark::State& state, EmdKernel kernel) {
   if (!core::is_available(kernel)) {

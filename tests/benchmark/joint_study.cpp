@@ -143,10 +143,14 @@ core::JointOptions options_of(const Arguments& arguments) {
   set("drive_ratio", options.drive_ratio);
   set("agile_log_prior", options.agile_log_prior);
   set("drive_log_prior", options.drive_log_prior);
-  set("likelihood_memory", options.likelihood_memory);
+  set("hand_over_memory", options.hand_over_memory);
+  set("still_log_prior", options.still_log_prior);
+  set("switching_rate", options.switching_rate);
+  set("likelihood_power", options.likelihood_power);
   set("hand_over_samples", options.hand_over_samples);
   set("correction_rate", options.correction_rate);
   set("correction_share", options.correction_share);
+  set("variance_factor", options.variance_factor);
   return options;
 }
 

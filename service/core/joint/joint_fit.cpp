@@ -167,7 +167,9 @@ void JointFit::design(JointModel& model) noexcept {
   agile.a = {rho + d, -rho * d};
   make(with_agile(agile), MemberKind::kSlope, model);
   make(blocks_of(full_, options_.drive_ratio), MemberKind::kRough, model);
-  make(blocks_of(full_, 1.0 / options_.drive_ratio), MemberKind::kCalm, model);
+  const double less = 1.0 / options_.drive_ratio;
+  make(blocks_of(full_, less), MemberKind::kCalm, model);
+  make(blocks_of(full_, less * less), MemberKind::kStill, model);
 }
 
 /// A member in the data's unit. One that cannot be made keeps what it was.

@@ -19,8 +19,9 @@ enum class MemberKind : std::uint8_t {
   kSlope,   ///< the pruned ones and a nearly constant acceleration: a turn winds up
   kRough,   ///< all modes, driven harder: a bump
   kCalm,    ///< all modes, driven less: smooth road
+  kStill,   ///< all modes, hardly driven: little moves but what is slow
 };
-inline constexpr std::size_t kMembers = 6;
+inline constexpr std::size_t kMembers = 7;
 
 /// A plain value of about 20 KB: copied, never shared.
 struct JointModel {

@@ -6,7 +6,7 @@
 namespace gyrod::core {
 namespace {
 
-/// Largest shrinkage and correction rate; more was not measured.
+/// Largest shrinkage, switching rate and correction rate; more was not measured.
 constexpr double kMost = 0.1;
 
 }  // namespace
@@ -24,8 +24,8 @@ JointScale::JointScale(double sample_rate_hz, std::size_t window_samples) noexce
   fewer_ = std::max(window, 1.0);
 }
 
-double JointScale::likelihood_memory(double memory) const noexcept {
-  return faster_ > 1.0 ? std::pow(memory, 1.0 / faster_) : memory;
+double JointScale::switching_rate(double rate) const noexcept {
+  return std::min(rate * fewer_ / faster_, kMost);
 }
 
 double JointScale::shrinkage(double shrinkage) const noexcept {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace gyrod::core {
 namespace {
@@ -51,9 +52,9 @@ MemberModel local_level(double ratio) noexcept {
 KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
     : options_(options), lag_(lag), history_(std::max(options.hand_over_samples, kRing)) {
   assert(lag <= kMaxLag && options.hand_over_samples <= kMaxHandOver);
-  const double agile = options.agile_log_prior;
-  const double drive = options.drive_log_prior;
-  log_prior_ = {0.0, 0.0, agile, agile, drive, drive};
+  const double agile = std::exp(options.agile_log_prior);
+  const double drive = std::exp(options.drive_log_prior);
+  prior_ = {1.0, 1.0, agile, agile, drive, drive, std::exp(options.still_log_prior)};
   reset();
 }
 
@@ -70,13 +71,16 @@ void KalmanBank::reset() noexcept {
 
 void KalmanBank::use(const JointModel& model) noexcept {
   if (!model.usable()) return;
+  const bool answers = count_ > lag_;
+  const double realtime = answers ? combine(0).rate : 0.0;
+  const double denoised = answers ? combine(lag_).rate : 0.0;
   model_ = model;
   scale();
   unit_ = 1.0;
   started_ = true;
   if (!fitted_) {
     fitted_ = true;
-    for (Member& member : members_) member.log_likelihood = 0.0;
+    for (Member& member : members_) member.weight = 0.0;
   }
   const std::uint64_t begin = count_ - std::min<std::uint64_t>(count_, options_.hand_over_samples);
   for (std::size_t i = 0; i < kMembers; ++i) {
@@ -90,13 +94,16 @@ void KalmanBank::use(const JointModel& model) noexcept {
       model_.members[i].usable = false;
     }
   }
-  if (!has_member(model_)) reset();
-  if (count_ > 0) weigh();
+  if (!has_member(model_)) return reset();
+  settle_weights();
+  if (!answers || options_.hand_over_memory == 0.0) return;
+  realtime_correction_.step += realtime - combine(0).rate;
+  denoised_correction_.step += denoised - combine(lag_).rate;
 }
 
 /// What the model's rate and window make of the options.
 void KalmanBank::scale() noexcept {
-  likelihood_memory_ = model_.scale.likelihood_memory(options_.likelihood_memory);
+  switching_rate_ = model_.scale.switching_rate(options_.switching_rate);
   correction_rate_ = model_.scale.correction_rate(options_.correction_rate);
 }
 
@@ -107,26 +114,27 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   if (!fitted_) learn_start_variance(sample);
   double fit = 0.0;
   double weights = 0.0;
+  bool lost = false;
+  std::array<double, kMembers> surprise{};
   for (std::size_t i = 0; i < kMembers; ++i) {
     const MemberModel& member = model_.members[i];
     if (!member.usable) continue;
     predict_and_update(i, sample, count_);
     const double nu = members_[i].innovation[count_ % kRing];
     const double S = member.innovation_variance * unit_;
-    const double normalised = S > 0.0 ? std::min(nu * nu / S, kMostSurprise) : 0.0;
-    double& l = members_[i].log_likelihood;
-    l = likelihood_memory_ * l - 0.5 * (normalised + (S > 0.0 ? std::log(S) : 0.0));
-    if (!std::isfinite(l)) {
+    surprise[i] = S > 0.0 ? std::min(nu * nu / S, kMostSurprise) : 0.0;
+    if (!std::isfinite(surprise[i])) {
       model_.members[i].usable = false;
-      l = 0.0;
+      lost = true;
       continue;
     }
-    fit += members_[i].weight * normalised;
+    fit += members_[i].weight * surprise[i];
     weights += members_[i].weight;
   }
   ++count_;
   if (!has_member(model_)) return start_anew(sample);
-  weigh();
+  if (lost) settle_weights();
+  weigh(surprise);
   if (fitted_ && weights > 0.0)
     normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
   BankEstimates answer;
@@ -150,17 +158,25 @@ BankEstimates KalmanBank::start_anew(double sample) noexcept {
 BankEstimate KalmanBank::held(std::size_t age) const noexcept {
   assert(age <= lag_ && age < count_);
   BankEstimate estimate = combine(age);
-  estimate.rate += denoised_correction_.paid;
+  estimate.rate += denoised_correction_.step + denoised_correction_.paid;
+  estimate.variance = widened(estimate.variance);
   return estimate;
 }
 
-void KalmanBank::correct(double sample, SlowCorrection& correction, BankEstimate& answer) const noexcept {
+void KalmanBank::correct(double sample, Correction& correction, BankEstimate& answer) const noexcept {
+  correction.step *= options_.hand_over_memory;
+  answer.rate += correction.step;
   const double noise = model_.noise_variance * unit_;
   const double share = noise > 0.0 ? options_.correction_share * answer.variance / noise : 0.0;
   const double rate = std::max(correction_rate_, std::min(share, kMostCorrection));
   correction.paid = rate * (correction.owed + sample - answer.rate);
   answer.rate += correction.paid;
   correction.owed += sample - answer.rate;
+  answer.variance = widened(answer.variance);
+}
+
+double KalmanBank::widened(double variance) const noexcept {
+  return std::min(variance * options_.variance_factor, std::numeric_limits<double>::max());
 }
 
 /// The local levels; the other members stay out.
@@ -174,6 +190,7 @@ void KalmanBank::start() noexcept {
       error_variance_[i][lag] = model_.members[i].error_variance(lag);
     }
   }
+  settle_weights();
   started_ = true;
 }
 
@@ -207,15 +224,40 @@ void KalmanBank::predict_and_update(std::size_t index, double sample, std::uint6
   member.prediction[time % kRing] = signal;
 }
 
-void KalmanBank::weigh() noexcept {
-  double best = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < kMembers; ++i) {
-    if (model_.members[i].usable) best = std::max(best, members_[i].log_likelihood + log_prior_[i]);
-  }
+/// Which members can answer may have changed: weights are what the others had, or, where they had none, the prior.
+void KalmanBank::settle_weights() noexcept {
+  prior_sum_ = 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < kMembers; ++i) {
     Member& member = members_[i];
-    member.weight = model_.members[i].usable ? std::exp(member.log_likelihood + log_prior_[i] - best) : 0.0;
+    if (!model_.members[i].usable) {
+      member.weight = 0.0;
+      continue;
+    }
+    const double S = model_.members[i].innovation_variance;
+    member.density = S > 0.0 ? std::pow(S, -0.5 * options_.likelihood_power) : 1.0;
+    prior_sum_ += prior_[i];
+    sum += member.weight;
+  }
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (!model_.members[i].usable) continue;
+    members_[i].weight = sum > 0.0 ? members_[i].weight / sum : prior_[i] / prior_sum_;
+  }
+}
+
+/// @param surprise nu^2 / S of the members that are usable
+void KalmanBank::weigh(const std::array<double, kMembers>& surprise) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (model_.members[i].usable) least = std::min(least, surprise[i]);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (!model_.members[i].usable) continue;
+    Member& member = members_[i];
+    const double before = std::lerp(member.weight, prior_[i] / prior_sum_, switching_rate_);
+    member.weight =
+        before * member.density * std::exp(0.5 * options_.likelihood_power * (least - surprise[i]));
     sum += member.weight;
   }
   for (Member& member : members_) member.weight /= sum;
@@ -225,11 +267,15 @@ void KalmanBank::weigh() noexcept {
 BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
   std::array<double, kMembers> estimates{};
   BankEstimate mixture;
+  // Differences to it are weighed: where all agree, that is the answer to the last bit.
+  std::optional<double> first;
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (members_[i].weight == 0.0) continue;
     estimates[i] = member_estimate(i, lag);
-    mixture.rate += members_[i].weight * estimates[i];
+    if (!first) first = estimates[i];
+    mixture.rate += members_[i].weight * (estimates[i] - *first);
   }
+  mixture.rate += first.value_or(0.0);
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (members_[i].weight == 0.0) continue;
     const double apart = estimates[i] - mixture.rate;

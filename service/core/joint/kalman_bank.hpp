@@ -24,18 +24,21 @@ struct BankEstimates {
 };
 
 /// Every member, per sample:
-///   x <- A x,   s = C' x,   nu = (z - mean) - H' x,   x <- x + K nu,   l <- memory l - (nu^2 / S + ln S) / 2,
-/// with weights w ~ exp(l + log prior). The estimate at lag L is
+///   x <- A x,   s = C' x,   nu = (z - mean) - H' x,   x <- x + K nu,   w <- ((1 - a) w + a p) N(nu; 0, S)^power / sum,
+/// with a the switching rate and p the prior weights: Bayes' rule where now one member fits and now another, so that evidence adds up
+/// for as long as nothing speaks against it. The estimate at lag L is
 ///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
-/// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2). A slow correction makes of it the
-/// answer,
-///   out = e + a (owed + z[t-L] - e),   owed <- owed + z[t-L] - out,   a = max(correction_rate, correction_share P / noise variance),
-/// so that what no member expects still arrives, and the sum of the answers stays with that of the samples, also from one model to the next.
+/// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2), published times
+/// variance_factor. A slow correction makes of e the answer,
+///   out = e + c (owed + z[t-L] - e),   owed <- owed + z[t-L] - out,   c = max(correction_rate, correction_share P / noise variance),
+/// after what is left of the step that the last new model made (a fifth less with every sample) has been taken back: a new model begins
+/// where the last one was. So what no member expects still arrives, and the sum of the answers stays with that of the samples, also from one model to the next.
 /// Before the first model, three local levels (random walks seen in white noise) answer.
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
 /// Allocates nothing after construction; finite for finite input. Not thread-safe.
-/// Source: docs/method.md; fixed lag by innovations: Anderson, Moore 1979, "Optimal filtering", section 7.3.
+/// Source: docs/method.md; fixed lag by innovations: Anderson, Moore 1979, "Optimal filtering", section 7.3; weights: Herbster, Warmuth
+/// 1998, "Tracking the best expert" (fixed share).
 class KalmanBank {
  public:
   /// @param lag 0..kMaxLag
@@ -64,22 +67,26 @@ class KalmanBank {
     std::array<double, kMaxStates> x{};
     std::array<double, kRing> innovation{};
     std::array<double, kRing> prediction{};
-    double log_likelihood = 0.0;
-    double weight = 0.0;
+    double weight = 0.0;   ///< probability that it is the one that fits, given all samples so far
+    double density = 0.0;  ///< of an innovation of 0, in parts that all members share
   };
 
-  struct SlowCorrection {
+  /// What one of the outputs adds to the mixture's mean.
+  struct Correction {
     double owed = 0.0;  ///< sum of samples less answers
     double paid = 0.0;  ///< of that with the last answer
+    double step = 0.0;  ///< what is left of the step from the last model's answer to the next one's
   };
 
-  void correct(double sample, SlowCorrection& correction, BankEstimate& answer) const noexcept;
+  void correct(double sample, Correction& correction, BankEstimate& answer) const noexcept;
+  [[nodiscard]] double widened(double variance) const noexcept;
   void scale() noexcept;
   void start() noexcept;
   [[nodiscard]] BankEstimates start_anew(double sample) noexcept;
   void learn_start_variance(double sample) noexcept;
   void predict_and_update(std::size_t index, double sample, std::uint64_t time) noexcept;
-  void weigh() noexcept;
+  void weigh(const std::array<double, kMembers>& surprise) noexcept;
+  void settle_weights() noexcept;
   [[nodiscard]] BankEstimate combine(std::size_t lag) const noexcept;
   [[nodiscard]] double member_estimate(std::size_t index, std::size_t lag) const noexcept;
   [[nodiscard]] double sample_at(std::uint64_t time) const noexcept {
@@ -91,17 +98,18 @@ class KalmanBank {
   JointModel model_;
   bool started_ = false;
   bool fitted_ = false;  ///< model_ came from a window
-  double likelihood_memory_ = 0.0;
+  double switching_rate_ = 0.0;
   double correction_rate_ = 0.0;
   double unit_ = 1.0;        ///< variances of the model in use are in parts of this
   std::uint64_t count_ = 0;  ///< samples taken
   std::vector<double> history_;
   std::array<Member, kMembers> members_{};
-  std::array<double, kMembers> log_prior_{};
+  std::array<double, kMembers> prior_{};
+  double prior_sum_ = 1.0;  ///< of the members that are usable
   /// P_L of every member at lag 0 and at lag_.
   std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
-  SlowCorrection realtime_correction_;
-  SlowCorrection denoised_correction_;
+  Correction realtime_correction_;
+  Correction denoised_correction_;
   double normalised_innovation_ = 1.0;
 };
 

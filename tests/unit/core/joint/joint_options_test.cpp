@@ -17,7 +17,7 @@ TEST(JointScale, LeavesAllAsItIsAtTheDesignAndWhereTheRateIsUnknown) {
     EXPECT_EQ(JointScale(unknown, kDesignWindowSamples), JointScale());
   }
   const JointScale none;
-  EXPECT_EQ(none.likelihood_memory(kOptions.likelihood_memory), kOptions.likelihood_memory);
+  EXPECT_EQ(none.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
   EXPECT_EQ(none.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
   EXPECT_EQ(none.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
   EXPECT_EQ(none.recency(kOptions.recency), kOptions.recency);
@@ -37,10 +37,10 @@ TEST(JointScale, ATrembleOfTheRateChangesNothing) {
   EXPECT_NE(JointScale(200.0, 1024), JointScale(400.0, 1024));
 }
 
-// Four samples at 480 Hz last as long as one at 120 Hz. 1e-15: a power and its root.
-TEST(JointScale, MembersRememberForTheSameSeconds) {
-  const double memory = JointScale(480.0, 1024).likelihood_memory(0.97);
-  EXPECT_NEAR(std::pow(memory, 4.0), 0.97, 1e-15);
+// Four samples at 480 Hz last as long as one at 120 Hz; half a window gives twice the models in the same time.
+TEST(JointScale, MembersGiveWayAsOftenASecondAndMoreOftenInShortWindows) {
+  EXPECT_EQ(JointScale(480.0, 1024).switching_rate(0.002), 0.0005);
+  EXPECT_EQ(JointScale(120.0, 512).switching_rate(0.002), 0.004);
 }
 
 // A random walk of drive q seen in white noise of variance 1 is followed with the gain K = (sqrt(q^2 + 4 q) - q) / 2, an exponential average

@@ -1,6 +1,4 @@
 // The bank against the conditional mean of a whole record, which is computed from covariances alone.
-#include "core/joint/kalman_bank.hpp"
-
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -9,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/allocation_counter.hpp"
-#include "unit/core/joint/joint_support.hpp"
+#include "unit/core/joint/bank_support.hpp"
 
 namespace gyrod {
 namespace {
@@ -21,45 +19,14 @@ using core::FilterBlock;
 using core::JointModel;
 using core::JointOptions;
 using core::KalmanBank;
-using core::MemberDesigner;
 using core::MemberKind;
+using testing::bare;
+using testing::blocks;
+using testing::kBankNoise;
 using testing::Signal;
-
-constexpr double kNoise = 0.7;  // variance of the white part
+using testing::simulated;
+using testing::single;
 constexpr std::size_t kSamples = 200;
-
-/// An oscillation, a wandering level, and coloured noise.
-BlockSet blocks() {
-  BlockSet set;
-  set.add(testing::oscillation(0.95, 0.4, 0.8));
-  set.add({.order = 1, .a = {0.97}, .drive = 0.5, .signal = true});
-  set.add(testing::oscillation(0.6, 1.5, 0.6, false));
-  return set;
-}
-
-/// A model of one member; nothing but the filter is left of the bank.
-JointModel single(const BlockSet& set, double mean = 0.0) {
-  JointModel model;
-  EXPECT_TRUE(MemberDesigner().design(set, kNoise, model.member(MemberKind::kFull)));
-  model.mean = mean;
-  return model;
-}
-
-JointOptions bare() {
-  JointOptions options;
-  options.correction_rate = 0.0;
-  options.correction_share = 0.0;
-  return options;
-}
-
-Signal simulated(const BlockSet& set, std::size_t size, unsigned seed) {
-  Signal z = testing::times(testing::white_noise(size, seed), std::sqrt(kNoise));
-  for (const FilterBlock& block : set.all()) {
-    const std::vector<double> a(block.a.begin(), block.a.begin() + static_cast<std::ptrdiff_t>(block.order));
-    z = testing::sum(z, testing::autoregressive(a, size, ++seed), std::sqrt(block.drive));
-  }
-  return z;
-}
 
 /// r_l = drive sum_k h_k h_(k+l), from the impulse response.
 Signal autocovariance(const FilterBlock& block, std::size_t lags) {
@@ -81,7 +48,7 @@ struct Batch {
   Batch(const BlockSet& set, const Signal& z) {
     const auto n = static_cast<Eigen::Index>(z.size());
     Eigen::MatrixXd Cs = Eigen::MatrixXd::Zero(n, n);
-    Eigen::MatrixXd Cz = kNoise * Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd Cz = kBankNoise * Eigen::MatrixXd::Identity(n, n);
     for (const FilterBlock& block : set.all()) {
       const Signal r = autocovariance(block, z.size());
       for (Eigen::Index i = 0; i < n; ++i) {
@@ -167,48 +134,6 @@ TEST(KalmanBank, IgnoresAModelThatIsNotUsable) {
     with.use(JointModel{});
     EXPECT_EQ(with.step(sample).realtime.rate, without.step(sample).realtime.rate);
   }
-}
-
-// The member whose model the data follow takes over from one that expects a hundredth of the motion.
-TEST(KalmanBank, TrustsTheMemberThatPredictsBest) {
-  const BlockSet right = blocks();
-  BlockSet wrong = right;
-  for (FilterBlock& block : wrong.blocks) block.drive *= block.signal ? 1e-2 : 1.0;
-  JointModel model = single(wrong);
-  ASSERT_TRUE(MemberDesigner().design(right, kNoise, model.member(MemberKind::kPruned)));
-  KalmanBank bank(bare(), 16);
-  KalmanBank best(bare(), 16);
-  bank.use(model);
-  best.use(single(right));
-  const Signal z = simulated(right, 2000, 5);
-  double apart = 0.0;
-  double size = 0.0;
-  for (const double sample : z) {
-    const double expected = best.step(sample).realtime.rate;
-    apart += std::pow(bank.step(sample).realtime.rate - expected, 2);
-    size += expected * expected;
-  }
-  EXPECT_LT(apart, 0.01 * size);
-}
-
-// The scale of a model acts on what the bank was given, and on nothing else.
-TEST(KalmanBank, TakesMemoryAndCorrectionAtTheModelsScale) {
-  const Signal z = simulated(blocks(), 500, 9);
-  JointModel model = single(blocks());
-  BlockSet lively = blocks();
-  lively.blocks[1].drive *= 10.0;
-  ASSERT_TRUE(MemberDesigner().design(lively, kNoise, model.member(MemberKind::kPruned)));
-  JointModel scaled = model;
-  scaled.scale = core::JointScale(480.0, 512);
-  JointOptions options;
-  KalmanBank bank(options, 16);
-  bank.use(scaled);
-  options.likelihood_memory = scaled.scale.likelihood_memory(options.likelihood_memory);
-  options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
-  KalmanBank expected(options, 16);
-  expected.use(model);
-  for (const double sample : z)
-    EXPECT_EQ(bank.step(sample).denoised.rate, expected.step(sample).denoised.rate);
 }
 
 TEST(KalmanBank, ItsInnovationsAreNormalWhereTheModelIsRight) {

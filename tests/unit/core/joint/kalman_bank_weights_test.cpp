@@ -1,0 +1,147 @@
+// How the bank weighs its members, and what a model brings along that takes over.
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "unit/core/joint/bank_support.hpp"
+
+namespace gyrod {
+namespace {
+
+using core::BankEstimates;
+using core::BlockSet;
+using core::FilterBlock;
+using core::JointModel;
+using core::JointOptions;
+using core::KalmanBank;
+using core::MemberDesigner;
+using core::MemberKind;
+using testing::bare;
+using testing::blocks;
+using testing::kBankNoise;
+using testing::Signal;
+using testing::simulated;
+using testing::single;
+
+// The member whose model the data follow takes over from one that expects a hundredth of the motion.
+TEST(KalmanBank, TrustsTheMemberThatPredictsBest) {
+  const BlockSet right = blocks();
+  BlockSet wrong = right;
+  for (FilterBlock& block : wrong.blocks) block.drive *= block.signal ? 1e-2 : 1.0;
+  JointModel model = single(wrong);
+  ASSERT_TRUE(MemberDesigner().design(right, kBankNoise, model.member(MemberKind::kPruned)));
+  KalmanBank bank(bare(), 16);
+  KalmanBank best(bare(), 16);
+  bank.use(model);
+  best.use(single(right));
+  const Signal z = simulated(right, 2000, 5);
+  double apart = 0.0;
+  double size = 0.0;
+  for (const double sample : z) {
+    const double expected = best.step(sample).realtime.rate;
+    apart += std::pow(bank.step(sample).realtime.rate - expected, 2);
+    size += expected * expected;
+  }
+  EXPECT_LT(apart, 0.01 * size);
+}
+
+// Two members that answer 0 whatever comes in, and expect different spreads: the mixture's variance, w P_1 + (1 - w) P_2, tells the weights.
+// They follow Bayes' rule with switching, written down here once more.
+TEST(KalmanBank, WeighsByEvidenceAndByTheChanceOfASwitch) {
+  constexpr double kNarrow = 2.0;  // S of either
+  constexpr double kWide = 5.0;
+  JointOptions options = bare();
+  options.switching_rate = 0.01;
+  options.likelihood_power = 0.4;
+  JointModel model;
+  core::MemberModel& narrow = model.member(MemberKind::kFull);
+  narrow.blocks.add({.order = 1, .drive = 1.0, .signal = true});
+  narrow.states = 1;
+  narrow.innovation_variance = kNarrow;
+  narrow.prediction_variance = 1.0;
+  narrow.usable = true;
+  core::MemberModel& wide = model.member(MemberKind::kPruned);  // its prior is as large
+  wide = narrow;
+  wide.innovation_variance = kWide;
+  wide.prediction_variance = 4.0;
+  KalmanBank bank(options, 0);
+  bank.use(model);
+  double weight = 0.5;
+  for (const double z : testing::times(testing::white_noise(300, 11), 1.7)) {
+    const auto evidence = [z](double S) { return std::pow(std::exp(-0.5 * z * z / S) / std::sqrt(S), 0.4); };
+    const double first = (0.99 * weight + 0.01 * 0.5) * evidence(kNarrow);
+    const double second = (0.99 * (1.0 - weight) + 0.01 * 0.5) * evidence(kWide);
+    weight = first / (first + second);
+    EXPECT_NEAR(bank.step(z).realtime.variance, weight + 4.0 * (1.0 - weight), 1e-12);
+  }
+}
+
+// The published variance is the mixture's times the factor, at once and later.
+TEST(KalmanBank, PublishesAVarianceWidenedByTheFactor) {
+  JointOptions options = bare();
+  KalmanBank plain(options, 8);
+  options.variance_factor = 1.5;
+  KalmanBank widened(options, 8);
+  plain.use(single(blocks()));
+  widened.use(single(blocks()));
+  for (const double sample : simulated(blocks(), 50, 12)) {
+    const BankEstimates a = plain.step(sample);
+    const BankEstimates b = widened.step(sample);
+    EXPECT_EQ(b.realtime.variance, 1.5 * a.realtime.variance);
+    EXPECT_EQ(b.denoised.variance, 1.5 * a.denoised.variance);
+    EXPECT_EQ(b.denoised.rate, a.denoised.rate);
+  }
+  EXPECT_EQ(widened.held(3).variance, 1.5 * plain.held(3).variance);
+}
+
+// A new model begins where the last one was: the step to it, here to one that expects a tenth of the motion, is taken back and
+// fades by hand_over_memory with every sample. 1e-12: rounding.
+TEST(KalmanBank, ANewModelMakesNoStep) {
+  constexpr double kMemory = 0.75;
+  JointOptions gently = bare();
+  gently.hand_over_memory = kMemory;
+  KalmanBank sudden(bare(), 16);
+  KalmanBank gentle(gently, 16);
+  for (KalmanBank* bank : {&sudden, &gentle}) bank->use(single(blocks()));
+  const Signal z = simulated(blocks(), 400, 13);
+  BankEstimates before;
+  for (std::size_t t = 0; t < 300; ++t) {
+    for (KalmanBank* bank : {&sudden, &gentle}) before = bank->step(z[t]);
+  }
+  BlockSet calmer = blocks();
+  for (FilterBlock& block : calmer.blocks) block.drive *= 0.1;
+  sudden.use(single(calmer));
+  gentle.use(single(calmer));
+  const double step = before.denoised.rate - sudden.held(16).rate;
+  ASSERT_GT(std::abs(step), 0.01);
+  EXPECT_NEAR(gentle.held(16).rate, before.denoised.rate, 1e-12);
+  double left = step;
+  for (std::size_t t = 300; t < z.size(); ++t) {
+    left *= kMemory;
+    EXPECT_NEAR(gentle.step(z[t]).denoised.rate - sudden.step(z[t]).denoised.rate, left, 1e-12);
+  }
+}
+
+// The scale of a model acts on what the bank was given, and on nothing else.
+TEST(KalmanBank, TakesSwitchingAndCorrectionAtTheModelsScale) {
+  const Signal z = simulated(blocks(), 500, 9);
+  JointModel model = single(blocks());
+  BlockSet lively = blocks();
+  lively.blocks[1].drive *= 10.0;
+  ASSERT_TRUE(MemberDesigner().design(lively, kBankNoise, model.member(MemberKind::kPruned)));
+  JointModel scaled = model;
+  scaled.scale = core::JointScale(480.0, 512);
+  JointOptions options;
+  KalmanBank bank(options, 16);
+  bank.use(scaled);
+  options.switching_rate = scaled.scale.switching_rate(options.switching_rate);
+  options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
+  KalmanBank expected(options, 16);
+  expected.use(model);
+  for (const double sample : z)
+    EXPECT_EQ(bank.step(sample).denoised.rate, expected.step(sample).denoised.rate);
+}
+
+}  // namespace
+}  // namespace gyrod
