@@ -4,8 +4,6 @@
 #include <iterator>
 #include <thread>
 
-#include <spdlog/spdlog.h>
-
 #include "app/version.hpp"
 #include "stream/joint_method.hpp"
 #include "stream/paper_method.hpp"
@@ -176,7 +174,6 @@ monitor::MonitorOptions monitor_options(const settings::MonitorSettings& setting
                     .key_file = settings.tls.key_file,
                     .token_file = settings.auth.token_file,
                     .users_file = settings.auth.users_file};
-  options.warn = [](const std::string& line) { spdlog::warn(line); };
   options.version = version();
   return options;
 }

@@ -1,8 +1,7 @@
 #include "app/service.hpp"
 
-#include <algorithm>
-#include <new>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -10,128 +9,21 @@
 
 #include "app/errors.hpp"
 #include "app/options.hpp"
+#include "app/version.hpp"
+#include "app/wall_clock.hpp"
 #include "bus/log.hpp"
 #include "settings/dump.hpp"
 
 namespace gyrod::app {
 namespace {
 
+/// Time for programs that run already to be found.
+constexpr std::chrono::milliseconds kDiscovery{500};
+
 /// How long readers may take in all to confirm what a stop releases.
 constexpr std::chrono::seconds kLastWord{5};
 
-/// One line a sensor, also where axes change one by one; warming up is told by metrics alone.
-void log_health(std::string_view sensor, const stream::SensorHealth& before,
-                const stream::SensorHealth& now) noexcept {
-  if (before.state == now.state) return;
-  const bool troubled = now.state > stream::Health::kWarmingUp;
-  const bool was_troubled = before.state > stream::Health::kWarmingUp;
-  if (!troubled && !was_troubled) return;
-  const auto worst = std::ranges::find(now.axis, now.state, &stream::AxisHealth::state);
-  spdlog::log(troubled ? spdlog::level::warn : spdlog::level::info,
-              "{} is {}, before {} (axis {}, {:.4g} against {:.4g})", sensor, stream::name_of(now.state),
-              stream::name_of(before.state),
-              stream::kAxisNames[static_cast<std::size_t>(worst - now.axis.begin())], worst->value,
-              worst->limit);
-}
-
-/// An event of what becomes of a sensor.
-void tell(live::Live& live, std::string_view sensor, const char* what) noexcept {
-  const std::chrono::duration<double> since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  try {
-    live.events.add(since_epoch.count(), sensor, std::string(sensor) + " " + what + ".");
-  } catch (const std::bad_alloc&) {
-    return;  // an event less
-  }
-}
-
-/// Time for readers to take one cache of messages: 50 000 samples a second at the default depth.
-constexpr std::chrono::milliseconds kBreath{20};
-
 }  // namespace
-
-/// All at once, or, while there is patience, no more at a time than the writers keep.
-template <class Publish>
-void ReleaseToBus::in_parts(std::span<const stream::DenoisedSample> samples,
-                            const Publish& publish) noexcept {
-  while (patience_ns_ > 0 && !samples.empty()) {
-    const auto part = samples.first(std::min(samples.size(), depth_));
-    let_readers_catch_up(part.size());
-    publish(part);
-    samples = samples.subspan(part.size());
-  }
-  if (!samples.empty()) publish(samples);
-}
-
-void ReleaseToBus::on_samples(std::string_view sensor,
-                              std::span<const stream::DenoisedSample> samples) noexcept {
-  live_.tap.on_denoised(sensor, samples);
-  if (imu_topics_.publish(sensor, samples)) return;
-  if (standby_ != nullptr) return standby_->release(sensor, samples);
-  publish(sensor, samples);
-}
-
-void ReleaseToBus::on_realtime(std::string_view sensor,
-                               std::span<const stream::DenoisedSample> samples) noexcept {
-  if (imu_topics_.publish_realtime(sensor, samples)) return;
-  if (standby_ != nullptr) return standby_->release_realtime(sensor, samples);
-  publish_realtime(sensor, samples);
-}
-
-void ReleaseToBus::publish(std::string_view sensor,
-                           std::span<const stream::DenoisedSample> samples) noexcept {
-  in_parts(samples, [&](const auto& part) { publisher_.publish(sensor, part); });
-  if (!samples.empty()) published_.note(sensor, samples.back());
-}
-
-void ReleaseToBus::publish_realtime(std::string_view sensor,
-                                    std::span<const stream::DenoisedSample> samples) noexcept {
-  in_parts(samples, [&](const auto& part) { publisher_.publish_realtime(sensor, part); });
-}
-
-void ReleaseToBus::end(std::string_view sensor) noexcept {
-  publisher_.unregister_sensor(sensor);
-  published_.forget(sensor);
-}
-
-void ReleaseToBus::on_report(std::string_view sensor, const stream::NoiseReport& report) noexcept {
-  live_.tap.on_report(sensor, report);
-  if (standby_ == nullptr || standby_->publishes(sensor)) publisher_.publish_report(sensor, report);
-}
-
-void ReleaseToBus::on_end(std::string_view sensor) noexcept {
-  tell(live_, sensor, "has ended");
-  if (standby_ != nullptr) return standby_->end(sensor);
-  end(sensor);
-}
-
-void ReleaseToBus::on_health(std::string_view sensor, const stream::SensorHealth& before,
-                             const stream::SensorHealth& now) noexcept {
-  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  publisher_.publish_health(sensor, before, now,
-                            std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count());
-  log_health(sensor, before, now);
-  try {
-    live_.events.add_health(std::chrono::duration<double>(since_epoch).count(), sensor, before, now);
-  } catch (const std::bad_alloc&) {
-    return;  // the log above and the topic have it
-  }
-}
-
-void ReleaseToBus::on_forgotten(std::string_view sensor) noexcept {
-  publisher_.unregister_health(sensor);
-  tell(live_, sensor, "is forgotten: it has sent nothing for long");
-}
-
-/// Before so many more samples: gives readers the time to take or to ask again for what the writers are about
-/// to let go. Their confirmation is asked for by a timer of the middleware, not at once, so it is not waited
-/// for to the end.
-void ReleaseToBus::let_readers_catch_up(std::size_t samples) noexcept {
-  if ((unconfirmed_ += samples) <= depth_) return;
-  unconfirmed_ = samples;
-  const auto begin = std::chrono::steady_clock::now();
-  publisher_.wait_for_acknowledgements(kBreath);
-  patience_ns_ -= std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count();
-}
 
 Service::Service(const settings::Settings& settings, std::string simulate_command)
     : stop_deadline_(static_cast<std::int64_t>(settings.stop_deadline_s * 1e3)),
@@ -139,7 +31,7 @@ Service::Service(const settings::Settings& settings, std::string simulate_comman
       keeps_noise_(!settings.noise.state_file.empty()),
       noise_file_(settings.noise.state_file, [](const std::string& line) { spdlog::warn(line); }),
       noise_(settings.noise, noise_file_.load()),
-      domain_(settings.bus.domain, settings.bus.network, settings.bus.security.folder),
+      domain_(settings.bus.domain, settings.bus.network, settings.bus.security.folder, bus::Calling::kOften),
       publisher_(domain_, live_bus_options(settings)),
       imu_topics_(domain_, live_bus_options(settings)),
       published_(settings.restart.published_file, settings.engine.max_channels,
@@ -161,7 +53,9 @@ Service::Service(const settings::Settings& settings, std::string simulate_comman
   }
   if (!settings.monitor.enabled) return;
   try {
-    monitor_.emplace(monitor_options(settings.monitor), view(settings, std::move(simulate_command)));
+    monitor::MonitorOptions options = monitor_options(settings.monitor);
+    options.tell = [this](monitor::Tone tone, const std::string& line) { hear(tone, line); };
+    monitor_.emplace(options, view(settings, std::move(simulate_command)));
   } catch (const monitor::AccessError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -170,8 +64,14 @@ Service::Service(const settings::Settings& settings, std::string simulate_comman
 }
 
 void Service::start() {
-  if (monitor_) monitor_->start();
+  if (monitor_) {
+    live_.events.add(seconds_since_1970(), "",
+                     std::string("gyrod ") + version() + " has started, epoch " + monitor_->epoch() + ".");
+    monitor_->start();
+  }
   fleet_.start();
+  // Readers that were there before a restart: what leaves before they are found is not theirs, and counts as published.
+  if (published_.remembered() > 0) std::this_thread::sleep_for(kDiscovery);
   subscriber_.start();
   imu_subscriber_.start();
   ready_ = true;
@@ -179,6 +79,7 @@ void Service::start() {
 
 bool Service::stop() {
   ready_ = false;
+  live_.events.add(seconds_since_1970(), "", "gyrod stops: what is in flight is drained.");
   release_.wait_for_readers(kLastWord);
   engine_.hurry_after(stop_deadline_);  // holds for what the subscriber still hands over, too
   imu_subscriber_.stop();
@@ -186,6 +87,7 @@ bool Service::stop() {
   fleet_.leave();  // takes no more from here on: others may
   const bool denoised = engine_.stop(stop_deadline_);
   if (standby_) standby_->stop();
+  imu_topics_.stop_holding();
   keep_noise();
   publisher_.wait_for_acknowledgements(kLastWord);
   imu_topics_.wait_for_acknowledgements(kLastWord);
@@ -207,7 +109,12 @@ void Service::judge() {
   engine_.judge_health();
   engine_.fit_curves();
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-  live_.tick(now.count(), engine_);
+  live_.tick(now.count(), seconds_since_1970(), engine_);
+}
+
+void Service::hear(monitor::Tone tone, const std::string& line) {
+  spdlog::log(tone == monitor::Tone::kTrouble ? spdlog::level::warn : spdlog::level::info, line);
+  live_.events.add(seconds_since_1970(), "", line + ".");
 }
 
 monitor::View Service::view(const settings::Settings& settings, std::string simulate_command) {
@@ -253,7 +160,7 @@ monitor::FleetSnapshot Service::fleet_snapshot() const {
 
 std::optional<monitor::StandbySnapshot> Service::standby_snapshot() const {
   if (!standby_) return std::nullopt;
-  const bus::StandbySnapshot now = standby_->snapshot();
+  const bus::StandbySnapshot now = standby_->snapshot() + imu_topics_.snapshot().standby;
   return monitor::StandbySnapshot{now.others, now.sensors, now.held, now.let_go, now.takeovers};
 }
 

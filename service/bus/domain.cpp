@@ -36,8 +36,8 @@ std::string attempt_text(const char* verb, std::uint32_t id, const std::string& 
   return log.text().empty() ? attempt : attempt + " (" + log.text() + ")";
 }
 
-Entity create_domain(std::uint32_t id, const std::string& network) {
-  const std::string config = network_config(network);
+Entity create_domain(std::uint32_t id, const std::string& network, Calling calling) {
+  const std::string config = network_config(network, calling);
   const LogCapture log;
   const dds_entity_t created = dds_create_domain(id, config.c_str());
   Entity domain(created, attempt_text("open", id, network, log));
@@ -46,14 +46,17 @@ Entity create_domain(std::uint32_t id, const std::string& network) {
   return domain;
 }
 
-void acquire(std::uint32_t id, const std::string& network, const std::string& security_folder) {
+void acquire(std::uint32_t id, const std::string& network, const std::string& security_folder,
+             Calling calling) {
   if (id > kMaxDomainId) {
     throw BusError("DDS domain id " + std::to_string(id) + ": expected 0.." + std::to_string(kMaxDomainId));
   }
   const std::lock_guard lock(open_domains_mutex);
   auto found = open_domains.find(id);
   if (found == open_domains.end()) {
-    found = open_domains.emplace(id, OpenDomain{create_domain(id, network), network, security_folder}).first;
+    found =
+        open_domains.emplace(id, OpenDomain{create_domain(id, network, calling), network, security_folder})
+            .first;
   } else if (found->second.network != network) {
     throw BusError("DDS domain " + std::to_string(id) + " is open on network '" + found->second.network +
                    "' in this process; expected the same and not '" + network + "'");
@@ -77,8 +80,8 @@ void release(std::uint32_t id) noexcept {
 
 class Domain::Impl {
  public:
-  Impl(std::uint32_t id, const std::string& network, const std::string& security_folder)
-      : identity_(identity_in(security_folder)), membership_(id, network, security_folder) {
+  Impl(std::uint32_t id, const std::string& network, const std::string& security_folder, Calling calling)
+      : identity_(identity_in(security_folder)), membership_(id, network, security_folder, calling) {
     const LogCapture log;
     const SecurityProperties security(security_folder);
     const dds_entity_t created = dds_create_participant(id, security.get(), nullptr);
@@ -101,9 +104,10 @@ class Domain::Impl {
   }
 
   struct Membership {
-    Membership(std::uint32_t domain_id, const std::string& network, const std::string& security_folder)
+    Membership(std::uint32_t domain_id, const std::string& network, const std::string& security_folder,
+               Calling calling)
         : id(domain_id) {
-      acquire(id, network, security_folder);
+      acquire(id, network, security_folder, calling);
     }
     ~Membership() { release(id); }
     Membership(const Membership&) = delete;
@@ -116,8 +120,9 @@ class Domain::Impl {
   Entity participant_;
 };
 
-Domain::Domain(std::uint32_t id, const std::string& network, const std::string& security_folder)
-    : impl_(std::make_shared<const Impl>(id, network, security_folder)) {}
+Domain::Domain(std::uint32_t id, const std::string& network, const std::string& security_folder,
+               Calling calling)
+    : impl_(std::make_shared<const Impl>(id, network, security_folder, calling)) {}
 
 std::int32_t Domain::participant() const noexcept { return impl_->participant(); }
 const std::optional<Identity>& Domain::identity() const noexcept { return impl_->identity(); }

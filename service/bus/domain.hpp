@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bus/calling.hpp"
 #include "bus/security_check.hpp"
 
 namespace gyrod::bus {
@@ -25,9 +26,11 @@ class Domain {
   /// @param network  as BusOptions::network
   /// @param security_folder  DDS Security with these files (bus/security_files.hpp); empty: without, unless the network's XML file
   /// asks for it
+  /// @param calling  of no effect where the domain is open already
   /// @throws BusError for a bad id, file, XML element or interface (named), or a domain that is open on
   /// another network; SecurityError for what is wrong with the security files, or where they do not let us in
-  Domain(std::uint32_t id, const std::string& network, const std::string& security_folder = {});
+  Domain(std::uint32_t id, const std::string& network, const std::string& security_folder = {},
+         Calling calling = Calling::kUsual);
 
   /// The DDS participant's handle. For the other classes of bus/.
   [[nodiscard]] std::int32_t participant() const noexcept;

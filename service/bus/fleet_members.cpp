@@ -19,9 +19,9 @@ namespace {
 using Endpoint = dds_builtintopic_endpoint_t;
 using State = fleet::Roster::State;
 
-/// Longer than discovery takes on a local network, but for one that loses many packets (docs/fleet.md).
-constexpr dds_duration_t kListening = DDS_MSECS(1000);
-constexpr dds_duration_t kJoining = DDS_MSECS(1000);
+dds_duration_t duration_of(double seconds) noexcept {
+  return static_cast<dds_duration_t>(seconds * static_cast<double>(DDS_NSECS_IN_SEC));
+}
 
 std::string text_of(const dds_guid_t& guid) {
   constexpr char kDigits[] = "0123456789abcdef";
@@ -75,8 +75,10 @@ std::optional<fleet::Announcement> announcement_of(const dds_qos_t* qos) {
 
 class FleetMembers::Impl {
  public:
-  Impl(const Domain& domain, const Publisher& publisher, const BusOptions& options, FleetHandler& handler)
+  Impl(const Domain& domain, const Publisher& publisher, const BusOptions& options, FleetHandler& handler,
+       const FleetTimes& times)
       : domain_(domain),
+        times_(times),
         writer_(publisher.denoised_writer()),
         topic_(options.topics.denoised),
         partitions_(partitions_of_writer(writer_)),
@@ -89,16 +91,21 @@ class FleetMembers::Impl {
         publications_(
             dds_create_reader(domain.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
             "look for other daemons"),
-        news_(dds_create_readcondition(publications_.get(), DDS_ANY_STATE), "look for other daemons") {
+        news_(dds_create_readcondition(publications_.get(), DDS_ANY_STATE), "look for other daemons"),
+        participants_(
+            dds_create_reader(domain.participant(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr),
+            "look for other programs"),
+        programs_(dds_create_readcondition(participants_.get(), DDS_ANY_STATE), "look for other programs") {
     check(dds_waitset_attach(waitset_.get(), waitset_.get(), 0), "wait for the stop");
     check(dds_waitset_attach(waitset_.get(), news_.get(), 0), "look for other daemons");
+    check(dds_waitset_attach(waitset_.get(), programs_.get(), 0), "look for other programs");
     check(tell(""), "announce a shard on topic '" + topic_ + "'");
   }
 
   ~Impl() { leave(); }
 
   void start() {
-    next_state_ = dds_time() + kListening;
+    enter(roster_.state());
     settle();
     thread_ = std::thread([this] { work(); });
   }
@@ -119,14 +126,42 @@ class FleetMembers::Impl {
  private:
   void work() noexcept {
     while (!stopping_.load(std::memory_order_relaxed)) {
-      const bool joined = roster_.state() == State::kActive;
-      (void)dds_waitset_wait_until(waitset_.get(), nullptr, 0, joined ? DDS_NEVER : next_state_);
+      (void)dds_waitset_wait_until(waitset_.get(), nullptr, 0, next_look_);
+      if (meet() && roster_.state() == State::kListening) quiet_since_ = dds_time();
       hear();
-      if (!joined && dds_time() >= next_state_) {
-        roster_.advance_to(roster_.state() == State::kListening ? State::kJoining : State::kActive);
-        next_state_ = dds_time() + kJoining;
-      }
+      advance();
       settle();
+    }
+  }
+
+  void enter(State state) {
+    roster_.advance_to(state);
+    entered_ = quiet_since_ = dds_time();
+    next_look_ = state == State::kActive ? DDS_NEVER : entered_;
+  }
+
+  /// From listening to joining, when nobody new has turned up for a while; from there on to serving, when all have heard of it.
+  void advance() {
+    const State state = roster_.state();
+    if (state == State::kActive) return;
+    const bool listening = state == State::kListening;
+    const dds_time_t latest = entered_ + duration_of(times_.longest_s);
+    const dds_time_t earliest =
+        listening ? quiet_since_ + duration_of(times_.listening_s) : entered_ + duration_of(times_.joining_s);
+    const dds_time_t now = dds_time();
+    const bool ready = now >= earliest && (listening || roster_.greeted());
+    if (ready || now >= latest) return enter(listening ? State::kJoining : State::kActive);
+    next_look_ = now < earliest ? std::min(earliest, latest) : latest;
+  }
+
+  /// @return whether another program has appeared; what it writes may take a while to be known, where packets are lost
+  bool meet() noexcept {
+    bool met = false;
+    while (true) {
+      const Loan<dds_builtintopic_participant_t> loan(participants_.get());
+      if (loan.size() == 0) return met;
+      for (std::size_t i = 0; i < loan.size(); ++i)
+        met = met || loan.info(i).instance_state == DDS_ALIVE_INSTANCE_STATE;
     }
   }
 
@@ -195,6 +230,7 @@ class FleetMembers::Impl {
   }
 
   Domain domain_;
+  FleetTimes times_;
   dds_entity_t writer_;
   std::string topic_;
   std::vector<std::string> partitions_;
@@ -205,10 +241,14 @@ class FleetMembers::Impl {
   bool told_handler_ = false;
   std::string told_;
   std::map<dds_instance_handle_t, std::string> ids_;  ///< of those that announce a shard
-  dds_time_t next_state_ = 0;
+  dds_time_t entered_ = 0;                            ///< the state that the roster is in
+  dds_time_t quiet_since_ = 0;                        ///< nobody new since
+  dds_time_t next_look_ = DDS_NEVER;
   Entity waitset_;
   Entity publications_;
   Entity news_;
+  Entity participants_;
+  Entity programs_;
   mutable std::mutex standing_mutex_;
   fleet::Standing standing_;
   std::atomic<bool> stopping_{false};
@@ -216,8 +256,8 @@ class FleetMembers::Impl {
 };
 
 FleetMembers::FleetMembers(const Domain& domain, const Publisher& publisher, const BusOptions& options,
-                           FleetHandler& handler)
-    : impl_(std::make_unique<Impl>(domain, publisher, options, handler)) {}
+                           FleetHandler& handler, const FleetTimes& times)
+    : impl_(std::make_unique<Impl>(domain, publisher, options, handler, times)) {}
 FleetMembers::~FleetMembers() = default;
 
 void FleetMembers::start() { impl_->start(); }

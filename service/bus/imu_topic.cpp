@@ -1,6 +1,5 @@
 #include "bus/imu_topic.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace gyrod::bus {
@@ -12,12 +11,9 @@ ImuTopic::ImuTopic(const Domain& domain, std::string name, const BusOptions& opt
               [ros2 = for_topic(options, name_).ros2](Reliability reliability) {
                 return imu_reader_qos(ros2, reliability);
               }),
-      denoised_(domain.participant(), outputs_.denoised,
-                imu_writer_qos(for_topic(options, outputs_.denoised).ros2)),
+      denoised_(domain, outputs_.denoised, options),
       held_(options.ros2.max_held_messages) {
-  if (options.realtime)
-    realtime_.emplace(domain.participant(), outputs_.realtime,
-                      imu_writer_qos(for_topic(options, outputs_.realtime).ros2));
+  if (options.realtime) realtime_.emplace(domain, outputs_.realtime, options);
 }
 
 void ImuTopic::add_matched_readers(std::vector<TopicReaders>& all) const {
@@ -52,7 +48,7 @@ void ImuTopic::publish(std::span<const stream::DenoisedSample> samples) noexcept
       ++counts_.dropped;
     }
     if (held_.size() == 0) continue;
-    write(denoised_, held_.oldest(), sample);
+    denoised_.publish(held_.oldest(), sample);
     held_.drop_oldest();
   }
   denoised_.flush();
@@ -64,31 +60,41 @@ void ImuTopic::publish_realtime(std::span<const stream::DenoisedSample> samples)
     if (held_.size() == 0 || stamp_ns_of(held_.newest()) != sample.stamp_ns) {
       ++counts_.dropped;
     } else {
-      write(*realtime_, held_.newest(), sample);
+      realtime_->publish(held_.newest(), sample);
     }
   }
   realtime_->flush();
 }
 
-void ImuTopic::write(const TopicWriter<Imu>& writer, const Imu& message,
-                     const stream::DenoisedSample& sample) {
-  if (!writer.has_readers()) return;
-  Imu changed = message;
-  set_rates(changed, sample);
-  if (writer.write(changed) < 0) ++counts_.write_errors;
+void ImuTopic::tend() noexcept {
+  const std::lock_guard lock(mutex_);
+  denoised_.tend();
+  if (realtime_) realtime_->tend();
+}
+
+bool ImuTopic::publishes() const noexcept {
+  const std::lock_guard lock(mutex_);
+  return denoised_.active();
+}
+
+void ImuTopic::add_to(StandbySnapshot& standby) const noexcept {
+  const std::lock_guard lock(mutex_);
+  standby.sensors += denoised_.active() ? 1U : 0U;
+  standby.held += denoised_.held() + (realtime_ ? realtime_->held() : 0);
+  standby.let_go += denoised_.let_go();
+  standby.takeovers += denoised_.takeovers();
 }
 
 bool ImuTopic::wait_for_acknowledgements(dds_time_t deadline) const noexcept {
-  const auto confirmed = [deadline](const TopicWriter<Imu>& writer) {
-    return dds_wait_for_acks(writer.get(), std::max<dds_duration_t>(0, deadline - dds_time())) ==
-           DDS_RETCODE_OK;
-  };
-  return confirmed(denoised_) && (!realtime_ || confirmed(*realtime_));
+  return denoised_.wait_for_acknowledgements(deadline) &&
+         (!realtime_ || realtime_->wait_for_acknowledgements(deadline));
 }
 
 ImuCounts ImuTopic::counts() const noexcept {
   const std::lock_guard lock(mutex_);
-  return counts_;
+  ImuCounts counts = counts_;
+  counts.write_errors = denoised_.write_errors() + (realtime_ ? realtime_->write_errors() : 0);
+  return counts;
 }
 
 }  // namespace gyrod::bus

@@ -10,9 +10,10 @@
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
 #include "bus/held_messages.hpp"
+#include "bus/imu_output.hpp"
 #include "bus/input_reader.hpp"
+#include "bus/standby.hpp"
 #include "bus/topic_readers.hpp"
-#include "bus/topic_writer.hpp"
 
 namespace gyrod::bus {
 
@@ -51,18 +52,23 @@ class ImuTopic {
   /// Writes the newest message with rates estimated without look-ahead; it waits on. Comes while the engine is given that message.
   void publish_realtime(std::span<const stream::DenoisedSample> samples) noexcept;
 
+  /// As ImuOutput::tend(), of both outputs.
+  void tend() noexcept;
+  /// Whether this daemon, of several with the same output, writes the topic.
+  [[nodiscard]] bool publishes() const noexcept;
+  /// Adds what is known of both outputs beside other daemons.
+  void add_to(StandbySnapshot& standby) const noexcept;
+
   [[nodiscard]] bool wait_for_acknowledgements(dds_time_t deadline) const noexcept;
   [[nodiscard]] ImuCounts counts() const noexcept;
 
  private:
-  void write(const TopicWriter<Imu>& writer, const Imu& message, const stream::DenoisedSample& sample);
-
   std::string name_;
   ros2::Outputs outputs_;
   InputReader<Imu> reader_;
-  TopicWriter<Imu> denoised_;
-  std::optional<TopicWriter<Imu>> realtime_;
   mutable std::mutex mutex_;  ///< of all below; held while a message is written, which keeps them in order
+  ImuOutput denoised_;
+  std::optional<ImuOutput> realtime_;
   HeldMessages held_;
   ImuCounts counts_;
 };

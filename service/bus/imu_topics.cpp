@@ -1,7 +1,9 @@
 #include "bus/imu_topics.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "bus/imu_topics_impl.hpp"
@@ -13,6 +15,23 @@ ImuTopics::Impl::Impl(Domain domain, BusOptions options)
   for (const std::string& topic : options_.ros2.topics) {
     if (!ros2::is_pattern(topic) && is_ours(topic)) open(topic);
   }
+  if (options_.ownership_strength > 0 && !options_.ros2.topics.empty()) {
+    ticker_.emplace(tick_s(options_.takeover_s), [this] { for_each([](ImuTopic& topic) { topic.tend(); }); });
+  }
+}
+
+void ImuTopics::Impl::stop_holding() noexcept {
+  if (!ticker_) return;
+  constexpr std::chrono::milliseconds kLook{5};
+  const double give_up = steady_now_s() + kTimeToLook_s + options_.takeover_s;
+  while (standby().held > 0 && steady_now_s() < give_up) std::this_thread::sleep_for(kLook);
+  ticker_.reset();
+}
+
+StandbySnapshot ImuTopics::Impl::standby() const noexcept {
+  StandbySnapshot standby;
+  for_each([&standby](const ImuTopic& topic) { topic.add_to(standby); });
+  return standby;
 }
 
 ImuTopic* ImuTopics::Impl::find(std::string_view name) const {
@@ -80,10 +99,18 @@ bool ImuTopics::wait_for_acknowledgements(std::chrono::milliseconds timeout) noe
   return all;
 }
 
+bool ImuTopics::publishes(std::string_view sensor) const noexcept {
+  const ImuTopic* topic = impl_->find(sensor);
+  return topic != nullptr && topic->publishes();
+}
+
+void ImuTopics::stop_holding() noexcept { impl_->stop_holding(); }
+
 ImuTopicsSnapshot ImuTopics::snapshot() const {
   ImuTopicsSnapshot snapshot;
   snapshot.refused_topics = impl_->refused();
   snapshot.broken_promises = impl_->broken_promises();
+  snapshot.standby = impl_->standby();
   impl_->for_each([&snapshot](const ImuTopic& topic) {
     const ImuCounts counts = topic.counts();
     ++snapshot.topics;

@@ -12,6 +12,7 @@
 #include "bus/broken_promises.hpp"
 #include "bus/bus_options.hpp"
 #include "bus/domain.hpp"
+#include "bus/standby.hpp"
 #include "bus/topic_readers.hpp"
 #include "stream/sample.hpp"
 
@@ -28,6 +29,7 @@ struct ImuTopicsSnapshot {
   std::uint64_t write_errors = 0;                  ///< messages that DDS did not take
   std::vector<TopicReaders> matched_readers = {};  ///< of each output topic
   BrokenPromises broken_promises;                  ///< of publishers
+  StandbySnapshot standby;                         ///< of the topics; how many others there are stays 0
 };
 
 /// Every open topic with its reader, its writers and the messages that wait for their denoised rates. A topic stays open as long as
@@ -49,6 +51,13 @@ class ImuTopics {
   bool publish(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept;
   /// The same without look-ahead. Comes while the subscriber's handler is given the message. @pre BusOptions::realtime
   bool publish_realtime(std::string_view sensor, std::span<const stream::DenoisedSample> samples) noexcept;
+
+  /// Whether the sensor is an open topic and this daemon, of several with the same output, publishes it.
+  [[nodiscard]] bool publishes(std::string_view sensor) const noexcept;
+
+  /// Where other daemons have the same output: waits, takeover_s and a little at the most, until all that is held has been heard from them or
+  /// published, and then holds and looks no more. Idempotent.
+  void stop_holding() noexcept;
 
   /// Waits until every reliable reader has confirmed what was published. @return false if they did not in time
   bool wait_for_acknowledgements(std::chrono::milliseconds timeout) noexcept;

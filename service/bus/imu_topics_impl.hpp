@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <shared_mutex>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "bus/imu_topic.hpp"
 #include "bus/imu_topics.hpp"
 #include "bus/promise_watch.hpp"
+#include "bus/ticker.hpp"
 
 namespace gyrod::bus {
 
@@ -40,6 +42,9 @@ class ImuTopics::Impl {
     for (const auto& [name, topic] : topics_) visit(*topic);
   }
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
+  /// As ImuTopics::stop_holding().
+  void stop_holding() noexcept;
+  [[nodiscard]] StandbySnapshot standby() const noexcept;
 
   /// Outlives the topics, whose readers it listens to.
   [[nodiscard]] PromiseWatch& promises() noexcept { return promises_; }
@@ -57,6 +62,7 @@ class ImuTopics::Impl {
   mutable std::shared_mutex mutex_;
   std::map<std::string, std::unique_ptr<ImuTopic>, std::less<>> topics_;
   std::atomic<std::uint64_t> refused_{0};
+  std::optional<Ticker> ticker_;  ///< beside other daemons; ends before the topics go
 };
 
 }  // namespace gyrod::bus

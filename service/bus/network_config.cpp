@@ -26,13 +26,21 @@ std::string read_xml(const std::string& path) {
   return text;
 }
 
-}  // namespace
+/// Of several texts the later ones hold.
+constexpr const char* kCallOften =
+    R"(<CycloneDDS><Domain Id="any"><Discovery><SPDPInterval>250ms</SPDPInterval></Discovery></Domain></CycloneDDS>,)";
 
-std::string network_config(const std::string& network) {
-  if (network == "loopback") return kLoopbackXml;
+std::string chosen_config(const std::string& network) {
   if (network != "default") return read_xml(network);
   const char* uri = std::getenv("CYCLONEDDS_URI");
   return uri == nullptr ? "" : uri;
+}
+
+}  // namespace
+
+std::string network_config(const std::string& network, Calling calling) {
+  if (network == "loopback") return kLoopbackXml;
+  return (calling == Calling::kOften ? kCallOften : "") + chosen_config(network);
 }
 
 }  // namespace gyrod::bus

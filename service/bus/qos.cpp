@@ -219,10 +219,22 @@ Qos imu_reader_qos(const Ros2Options& options, Reliability reliability) {
   return qos;
 }
 
-Qos imu_writer_qos(const Ros2Options& options) {
+Qos imu_writer_qos(const BusOptions& options) {
+  const Ros2Options& ros2 = options.ros2;
   Qos qos;
-  set_reliability(qos, options.output_reliability, kOutputMaxBlocking);
-  qos.keep_last(options.depth).no_autodispose().user_data(kImuTypeHash).promise(options.output);
+  set_reliability(qos, ros2.output_reliability, kOutputMaxBlocking);
+  qos.keep_last(ros2.depth).no_autodispose().user_data(kImuTypeHash).promise(ros2.output);
+  // Ownership stays shared, as ROS 2 has it: the strength is for the other daemons.
+  if (options.ownership_strength > 0) qos.strength(options.ownership_strength);
+  return qos;
+}
+
+Qos imu_standby_reader_qos(const BusOptions& options) {
+  constexpr std::size_t kWriters = 16;  // the newest of each, however they mix
+  Qos qos;
+  set_reliability(qos, options.ros2.output_reliability, 0);
+  qos.keep_last(kWriters).user_data(kImuTypeHash).ignore_own_process();
+  qos.partitions(options.ros2.output.partitions);
   return qos;
 }
 

@@ -90,6 +90,8 @@ class Qos {
                                bool exclusive, const BusOptions& options);
 /// The reader and the writers of a ROS 2 topic, as ROS 2 nodes have them for sensor data.
 [[nodiscard]] Qos imu_reader_qos(const Ros2Options& options, Reliability reliability);
-[[nodiscard]] Qos imu_writer_qos(const Ros2Options& options);
+[[nodiscard]] Qos imu_writer_qos(const BusOptions& options);
+/// A daemon's reader of what others of the same output publish on a ROS 2 topic.
+[[nodiscard]] Qos imu_standby_reader_qos(const BusOptions& options);
 
 }  // namespace gyrod::bus

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -12,8 +10,6 @@
 #include <openssl/err.h>
 #include <openssl/pkcs7.h>
 #include <sys/stat.h>
-#include <system_error>
-#include <unistd.h>
 #include <vector>
 
 #include "bus/certificate.hpp"
@@ -24,12 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Bio = std::unique_ptr<BIO, FreeWith<BIO_free>>;
-
-std::string octal(mode_t mode) {
-  std::array<char, 8> text{};
-  std::snprintf(text.data(), text.size(), "%04o", static_cast<unsigned>(mode & 07777U));
-  return text.data();
-}
 
 void check_present(const SecurityFiles& files) {
   std::string missing;
@@ -42,7 +32,7 @@ void check_present(const SecurityFiles& files) {
       continue;
     }
     if ((status.st_mode & S_IWOTH) != 0) {
-      throw SecurityError(file, "its mode is " + octal(status.st_mode) +
+      throw SecurityError(file, "its mode is " + secrets::octal(status.st_mode) +
                                     ": anybody may change it; expected one that only its owner may write");
     }
   }
@@ -50,31 +40,6 @@ void check_present(const SecurityFiles& files) {
   throw SecurityError(fs::path(files.certificate).parent_path().string(),
                       "cannot read " + missing +
                           "; expected a folder as deploy/security/make.sh or ROS 2 (an enclave) makes it");
-}
-
-/// Whether systemd has put the file there for this service.
-bool is_credential(const std::string& file) {
-  const char* folder = std::getenv("CREDENTIALS_DIRECTORY");
-  std::error_code error;
-  return folder != nullptr && fs::equivalent(fs::path(file).parent_path(), folder, error);
-}
-
-void check_key_access(const std::string& file, KeyOwner owner) {
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0)
-    throw SecurityError(file, std::string("cannot be read: ") + std::strerror(errno));
-  const bool credential = is_credential(file);
-  // systemd may let the service in by an access control list, whose mask shows in the place of the group's bits.
-  const mode_t forbidden = credential ? S_IRWXO : S_IRWXG | S_IRWXO;
-  if ((status.st_mode & forbidden) != 0) {
-    throw SecurityError(file, "its mode is " + octal(status.st_mode) +
-                                  ": others than its owner may use the private key; expected 0600 or 0400");
-  }
-  const uid_t user = geteuid();
-  if (owner == KeyOwner::kAnyUser || status.st_uid == user || (credential && status.st_uid == 0)) return;
-  throw SecurityError(file, "belongs to user " + std::to_string(status.st_uid) + ", but gyrod runs as user " +
-                                std::to_string(user) +
-                                "; expected its own user's private key, or one by systemd's LoadCredential=");
 }
 
 /// The text of a signed document, if that authority has signed it as it stands.
@@ -153,7 +118,8 @@ Identity identity_of(const std::array<const Certificate*, 3>& certificates) {
 Identity check_security(const SecurityFiles& files, std::chrono::sys_seconds now, KeyOwner owner) {
   ERR_clear_error();
   check_present(files);
-  check_key_access(files.private_key, owner);
+  if (const std::string trouble = secrets::access_trouble(files.private_key, owner); !trouble.empty())
+    throw SecurityError(files.private_key, trouble);
   const Certificate certificate(files.certificate);
   const Certificate identity_ca(files.identity_ca);
   const Certificate permissions_ca(files.permissions_ca);

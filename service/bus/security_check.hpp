@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bus/security_files.hpp"
+#include "secrets/access.hpp"
 
 namespace gyrod::bus {
 
@@ -18,16 +19,13 @@ struct Identity {
 };
 
 /// Whose the private key has to be.
-enum class KeyOwner {
-  kThisUser,  ///< the user that this process runs as
-  kAnyUser,   ///< for a check on behalf of a service that runs as another one
-};
+using KeyOwner = secrets::FileOwner;
 
 /// Checks in this order: all files are there and can be read; nobody but the owner may read the key, nobody but the owner and group
 /// may change any file; every certificate holds now; ours is signed by the identity authority; the key is its key; both documents are
 /// signed by the permissions authority; the permissions have a grant for our subject. What the grant allows, and whether both documents cover a domain, is for DDS to say.
 ///
-/// A key that systemd hands over (LoadCredential=, in $CREDENTIALS_DIRECTORY) may belong to root: systemd lets only the service read it.
+/// Who may use the key: secrets/access.hpp.
 /// @throws SecurityError at the first trouble, naming the file, what it holds, and what was expected
 [[nodiscard]] Identity check_security(const SecurityFiles& files, std::chrono::sys_seconds now,
                                       KeyOwner owner = KeyOwner::kThisUser);

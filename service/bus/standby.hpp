@@ -1,6 +1,7 @@
 /// Several daemons, one output.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,12 @@ struct StandbySnapshot {
   std::uint64_t let_go = 0;  ///< samples that another one has published
   std::uint64_t takeovers =
       0;  ///< times a sensor was taken over because another daemon had stopped publishing it
+
+  /// The sum; of the others, the larger number.
+  friend StandbySnapshot operator+(const StandbySnapshot& a, const StandbySnapshot& b) noexcept {
+    return {std::max(a.others, b.others), a.sensors + b.sensors, a.held + b.held, a.let_go + b.let_go,
+            a.takeovers + b.takeovers};
+  }
 };
 
 /// Stands between engine and publisher where daemons of one domain have the same output topics, read the same sensors, and differ in

@@ -8,6 +8,7 @@ namespace {
 constexpr std::string_view kShard = "gyrod.shard=";
 constexpr std::string_view kState = "gyrod.state=";
 constexpr std::string_view kYields = "gyrod.yields=";
+constexpr std::string_view kGreets = "gyrod.greets=";
 
 /// What stands before the next separator; `text` then begins behind it.
 std::string_view cut(std::string_view& text, char separator) {
@@ -23,14 +24,25 @@ std::optional<std::string_view> value_of(std::string_view entry, std::string_vie
   return entry.substr(key.size());
 }
 
+std::string list_of(std::string_view key, const std::vector<std::string>& ids) {
+  std::string text(key);
+  for (const std::string& id : ids) text += id + ",";
+  if (!ids.empty()) text.pop_back();
+  return text + ";";
+}
+
+std::vector<std::string> ids_in(std::string_view list) {
+  std::vector<std::string> ids;
+  while (!list.empty() && ids.size() < kMostPeers) ids.emplace_back(cut(list, ','));
+  return ids;
+}
+
 }  // namespace
 
 std::string text_of(const Announcement& announcement) {
-  std::string text = std::string(kShard) + text_of(announcement.shard) + ";" + std::string(kState) +
-                     (announcement.active ? "active" : "joining") + ";" + std::string(kYields);
-  for (const std::string& id : announcement.yields_to) text += id + ",";
-  if (!announcement.yields_to.empty()) text.pop_back();
-  return text + ";";
+  return std::string(kShard) + text_of(announcement.shard) + ";" + std::string(kState) +
+         (announcement.active ? "active" : "joining") + ";" + list_of(kYields, announcement.yields_to) +
+         list_of(kGreets, announcement.greets);
 }
 
 std::optional<Announcement> parse_announcement(std::string_view text) {
@@ -44,8 +56,10 @@ std::optional<Announcement> parse_announcement(std::string_view text) {
     } else if (const auto state = value_of(entry, kState)) {
       read.active = *state == "active";
       if (!read.active && *state != "joining") return std::nullopt;
-    } else if (auto ids = value_of(entry, kYields)) {
-      while (!ids->empty() && read.yields_to.size() < kMostPeers) read.yields_to.emplace_back(cut(*ids, ','));
+    } else if (const auto yields = value_of(entry, kYields)) {
+      read.yields_to = ids_in(*yields);
+    } else if (const auto greets = value_of(entry, kGreets)) {
+      read.greets = ids_in(*greets);
     }
   }
   if (!shard) return std::nullopt;

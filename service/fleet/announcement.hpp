@@ -11,12 +11,14 @@
 namespace gyrod::fleet {
 
 /// Goes round as text with the writer of denoised samples (DDS: its user data), which others than gyrod may read:
-///   "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=ID,ID;"
+///   "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=ID,ID;gyrod.greets=ID;"
 struct Announcement {
   Shard shard;
   bool active = false;  ///< false: joining, takes part in who yields to whom and serves nothing
   std::vector<std::string>
       yields_to;  ///< ids of daemons for which this one has stopped to serve what both hold
+
+  std::vector<std::string> greets = {};  ///< ids of daemons that this one has heard are joining
 
   friend bool operator==(const Announcement&, const Announcement&) = default;
 };

@@ -26,6 +26,12 @@ void Roster::show(const std::string& id, const Announcement& announcement) {
   peers_.insert_or_assign(id, announcement);
 }
 
+bool Roster::greeted() const {
+  return std::ranges::all_of(peers_, [this](const auto& peer) {
+    return std::ranges::find(peer.second.greets, id_) != peer.second.greets.end();
+  });
+}
+
 bool Roster::yields_to(const Announcement& peer) const noexcept {
   return peer.active && peer.shard.count > own_.count && overlap(own_, peer.shard);
 }
@@ -45,9 +51,10 @@ ServingRule Roster::rule() const {
 
 Announcement Roster::announcement() const {
   assert(state_ != State::kListening);
-  Announcement told{own_, state_ == State::kActive, {}};
+  Announcement told{own_, state_ == State::kActive, {}, {}};
   for (const auto& [id, peer] : peers_) {
     if (yields_to(peer)) told.yields_to.push_back(id);
+    if (!peer.active) told.greets.push_back(id);
   }
   return told;
 }

@@ -73,6 +73,10 @@ class Roster {
   /// It is gone, or does no longer announce a shard.
   void forget(const std::string& id) { peers_.erase(id); }
 
+  /// Whether every daemon that this one knows has said that it has heard this one join: then none of them takes a sensor unawares. News
+  /// may be late, where packets are lost; who is not greeted yet waits.
+  [[nodiscard]] bool greeted() const;
+
   [[nodiscard]] ServingRule rule() const;
   /// To be told only when rule() is in force. @pre state() != kListening
   [[nodiscard]] Announcement announcement() const;

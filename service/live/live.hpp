@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "live/daemon_watch.hpp"
 #include "live/event_log.hpp"
 #include "live/noise_history.hpp"
 #include "live/recent.hpp"
@@ -17,10 +18,11 @@ struct Live {
   Recent recent;
   Tap tap;
 
-  /// To be called about once a second, by one thread. @param now_s of a steady clock
-  void tick(double now_s, const stream::Engine& engine);
+  /// To be called about once a second, by one thread. @param now_s of a steady clock @param time_s since 1970
+  void tick(double now_s, double time_s, const stream::Engine& engine);
 
  private:
+  DaemonWatch watch_;
   double next_round_s_ = 0.0;
 };
 

@@ -4,9 +4,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "monitor/http_counts.hpp"
 
 namespace gyrod::monitor {
 
@@ -39,6 +42,8 @@ struct Answer {
   std::vector<std::pair<std::string, std::string>> headers = {};
   /// Where set, the answer is a stream of events and `body` its first part.
   std::unique_ptr<EventSource> events = {};
+  /// Where set, the client is turned away.
+  std::optional<Refusal> refusal = {};
 };
 
 /// Called by several threads at once. What it throws becomes status 500.

@@ -80,7 +80,8 @@ Answer Api::route(const Request& request) const {
   }
   if (rest == "channels") return answer_of(listing_json(view_, Listing::parse(request), options_.time_s()));
   if (rest == "events")
-    return answer_of(events_json(request, view_.live != nullptr ? &view_.live->events : nullptr));
+    return answer_of(events_json(request, view_.live != nullptr ? &view_.live->events : nullptr,
+                                 epoch_of(options_.start_time_s)));
   if (rest == "stream" && view_.live != nullptr) {
     const bool with_channels = ApiQuery(request, {"channels"}).flag("channels");
     return answer_of(

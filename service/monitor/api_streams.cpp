@@ -38,13 +38,16 @@ bool is_due(double now_s, double period_s, double& next_s) {
   return true;
 }
 
-std::uint64_t place_to_go_on(const live::EventLog& log, const std::string& last_event_id) {
+std::uint64_t place_to_go_on(const live::EventLog& log, std::string_view epoch,
+                             std::string_view last_event_id) {
   const std::uint64_t newest = log.last_id();
+  const std::size_t dash = last_event_id.find('-');
+  const bool is_ours = dash == std::string_view::npos || last_event_id.substr(0, dash) == epoch;
+  const std::string_view number = last_event_id.substr(dash == std::string_view::npos ? 0 : dash + 1);
   std::uint64_t seen = 0;
-  const char* const end = last_event_id.data() + last_event_id.size();
-  const auto [stop, error] = std::from_chars(last_event_id.data(), end, seen);
-  if (last_event_id.empty() || error != std::errc{} || stop != end) return newest;
-  return seen <= newest ? seen : 0;
+  const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), seen);
+  if (number.empty() || error != std::errc{} || stop != number.data() + number.size()) return newest;
+  return is_ours && seen <= newest ? seen : 0;
 }
 
 /// The figures without what changes by itself.
@@ -61,14 +64,26 @@ std::size_t hash_of(const stream::ChannelSnapshot& channel) {
 
 }  // namespace
 
-EventFeed::EventFeed(const live::EventLog& log, const std::string& last_event_id, std::string sensor)
-    : log_(log), sensor_(std::move(sensor)), after_(place_to_go_on(log, last_event_id)) {}
+EventFeed::EventFeed(const live::EventLog& log, std::string epoch, const std::string& last_event_id,
+                     std::string sensor)
+    : log_(log),
+      epoch_(std::move(epoch)),
+      sensor_(std::move(sensor)),
+      after_(place_to_go_on(log, epoch_, last_event_id)) {}
+
+void EventFeed::append_id(std::string& text, std::uint64_t event) const {
+  text += "id: " + epoch_ + "-" + std::to_string(event) + "\n";
+}
 
 void EventFeed::append(std::string& text) {
+  if (!std::exchange(told_place_, true)) {
+    append_id(text, after_);
+    text += "\n";
+  }
   if (log_.last_id() == after_) return;
   const live::EventLog::Page page = log_.read({.after = after_, .sensor = sensor_});
   for (const live::Event& event : page.events) {
-    text += "id: " + std::to_string(event.id) + "\n";
+    append_id(text, event.id);
     append_event(text, "event", json_of(event));
   }
   after_ = page.last_id;
@@ -87,13 +102,12 @@ FleetStream::FleetStream(const View& view, const ApiOptions& options, RowBoard& 
     : view_(view),
       options_(options),
       board_(board),
-      events_(view.live->events, last_event_id, ""),
+      events_(view.live->events, epoch_of(options.start_time_s), last_event_id, ""),
       with_channels_(with_channels) {}
 
 void FleetStream::append(std::string& text) {
   const std::size_t before = text.size();
   const double now_s = options_.steady_s();
-  events_.append(text);
   if (is_due(now_s, kFleetPeriodS, next_s_)) {
     if (with_channels_) {
       append_channels(text, now_s);
@@ -101,6 +115,7 @@ void FleetStream::append(std::string& text) {
       append_event(text, "status", status_json(view_, options_, worst_overload_step(rows_of(view_))));
     }
   }
+  events_.append(text);  // after the status, which tells whose they are
   keep_alive_.append(text, text.size() > before, now_s);
 }
 
@@ -141,7 +156,7 @@ SensorStream::SensorStream(const View& view, const ApiOptions& options, std::str
       sensor_(std::move(sensor)),
       query_(query),
       frames_(query),
-      events_(view.live->events, last_event_id, sensor_) {}
+      events_(view.live->events, epoch_of(options.start_time_s), last_event_id, sensor_) {}
 
 void SensorStream::append(std::string& text) {
   const std::size_t before = text.size();

@@ -21,15 +21,22 @@ inline constexpr const char* kStreamBegin = "retry: 2000\n\n";
 /// The new events of a log, of one sensor or of all.
 class EventFeed {
  public:
-  /// @param last_event_id where the client left off; empty: from now on. One that is newer than all of the log is of a gyrod that has
-  /// ended: all events are new
-  EventFeed(const live::EventLog& log, const std::string& last_event_id, std::string sensor);
+  /// @param epoch of this run of gyrod
+  /// @param last_event_id where the client left off, as append() has told it, or an event's number; empty or anything else: from now on. To
+  /// one of another run all events are new
+  EventFeed(const live::EventLog& log, std::string epoch, const std::string& last_event_id,
+            std::string sensor);
+  /// Tells the place at first, so that who has seen no event yet can come back to it.
   void append(std::string& text);
 
  private:
+  void append_id(std::string& text, std::uint64_t event) const;
+
   const live::EventLog& log_;
+  std::string epoch_;
   std::string sensor_;
   std::uint64_t after_;
+  bool told_place_ = false;
 };
 
 /// Says something at the least every 15 s, so that whoever is between does not take the stream for dead.

@@ -142,14 +142,21 @@ Json bias_json(const stream::ChannelSnapshot& sensor) {
   return {{"axes_radps", sensor.bias_radps}, {"seconds", sensor.bias_s}};
 }
 
-/// What the curve says of a term: seconds of rest after which it may be told, by rule of thumb. A cluster time is known to some per cent
-/// once the rest is ten times as long: N is read at 1 s, B at the floor of the curve, which lies at 100 s or beyond with MEMS gyros.
-constexpr double kRestForN = 10.0;
-constexpr double kRestForB = 1000.0;
+/// Where the terms are read off the curve, s: B at its floor, which lies at 100 s or beyond with MEMS gyros.
+constexpr double kTauOfN = 1.0;
+constexpr double kTauOfB = 100.0;
+
+/// Rest, s, after which the deviation at a cluster time is known to a quarter: T seconds of white noise give it the relative standard error
+///   1 / sqrt(2 (T / tau - 1)).
+/// Source: IEEE Std 952-1997, annex C. Overlapping clusters do no worse. No term shows sooner; later it does if the fit finds it.
+double rest_for(double tau_s) {
+  constexpr double kError = 0.25;
+  return tau_s * (1.0 + 1.0 / (2.0 * kError * kError));
+}
 
 Value needs(const stream::ChannelSnapshot& sensor, std::size_t axis) {
-  if (!coefficient(sensor, axis, NoiseTerm::kAngleRandomWalk)) return kRestForN;
-  if (!coefficient(sensor, axis, NoiseTerm::kBiasInstability)) return kRestForB;
+  if (!coefficient(sensor, axis, NoiseTerm::kAngleRandomWalk)) return rest_for(kTauOfN);
+  if (!coefficient(sensor, axis, NoiseTerm::kBiasInstability)) return rest_for(kTauOfB);
   return std::nullopt;
 }
 

@@ -24,12 +24,13 @@ constexpr std::chrono::milliseconds kClosingTime{500};
 
 }  // namespace
 
-Client::Client(Transport transport, std::string address, Deadline now)
+Client::Client(Transport transport, std::string address, Deadline now, HttpCounts& counts)
     : transport_(std::move(transport)),
       address_(std::move(address)),
       begin_(now),
       deadline_(now + kRequestTime),
-      last_progress_(now) {}
+      last_progress_(now),
+      counts_(counts) {}
 
 bool Client::step(Deadline now, short revents) {
   if (now >= deadline_ && !times_out(now)) return false;
@@ -79,14 +80,25 @@ std::optional<Deadline> Client::idle_since() const noexcept {
 
 /// @return whether there is something left to say to the client
 bool Client::times_out(Deadline now) {
-  if (state_ != State::kReading || received_.empty()) return false;
-  refuse(408, "the request did not come within 2 s", now);
+  if (state_ == State::kWriting) counts_.count(Refusal::kNotTaken);
+  if (state_ != State::kReading) return false;
+  if (received_.empty()) return gone();
+  refuse(408, Refusal::kTimeout, "the request did not come within 2 s");
+  deadline_ = now + kClosingTime;
   return true;
 }
 
-void Client::refuse(int status, std::string_view words, Deadline now) {
-  answer(refusal(status, words));
-  deadline_ = now + kClosingTime;
+void Client::refuse(int status, Refusal why, std::string_view words) {
+  Reply reply = refusal(status, why, words);
+  counts_.count(reply.status, reply.refusal);
+  answer(std::move(reply));
+}
+
+/// While it was read from.
+/// @return false
+bool Client::gone() noexcept {
+  if (transport_.is_shaking_hands()) counts_.count(Refusal::kTls);
+  return false;
 }
 
 bool Client::read(Deadline now) {
@@ -94,13 +106,14 @@ bool Client::read(Deadline now) {
   bool whole = find_request(0);
   while (!whole) {
     const Transfer transfer = transport_.read(bytes);
-    if (transfer.ended) return false;
+    if (transfer.ended) return gone();
     const bool too_much = received_.size() + transfer.bytes > kMaxRequestBytes ||
                           transport_.received_bytes() - bytes_before_ > kMaxRawBytes;
     if (too_much) {
       // Before TLS has begun there is no way to say so.
-      if (received_.empty()) return false;
-      refuse(431, "a request has 16 KiB at most", now);
+      if (received_.empty()) return gone();
+      refuse(431, Refusal::kTooLarge, "a request has 16 KiB at most");
+      deadline_ = now + kClosingTime;
       return true;
     }
     if (transfer.bytes == 0) return true;

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "monitor/http_counts.hpp"
 #include "monitor/http_exchange.hpp"
 #include "monitor/polling.hpp"
 #include "monitor/transport.hpp"
@@ -17,7 +18,8 @@ namespace gyrod::monitor {
 /// per byte, so that one that trickles gains nothing) hold for each request. One thread.
 class Client {
  public:
-  Client(Transport transport, std::string address, Deadline now);
+  /// @param counts outlives it
+  Client(Transport transport, std::string address, Deadline now, HttpCounts& counts);
 
   /// Moves what can be moved.
   /// @param revents as poll() has found them
@@ -33,6 +35,8 @@ class Client {
   [[nodiscard]] std::string take_request();
   [[nodiscard]] const std::string& address() const noexcept { return address_; }
   void answer(Reply reply);
+  /// Answers, and counts it.
+  void refuse(int status, Refusal why, std::string_view words);
   /// Once the answer is an event stream: the client goes on there.
   [[nodiscard]] std::optional<EventStream> take_stream();
 
@@ -45,7 +49,7 @@ class Client {
 
   [[nodiscard]] bool read(Deadline now);
   [[nodiscard]] bool find_request(std::size_t from);
-  void refuse(int status, std::string_view words, Deadline now);
+  [[nodiscard]] bool gone() noexcept;
   void begin_next(Deadline now);
   [[nodiscard]] bool write(Deadline now);
   [[nodiscard]] bool drain();
@@ -61,6 +65,7 @@ class Client {
   std::size_t request_bytes_ = 0;   ///< of those, the whole request; 0 while it is not
   std::uint64_t bytes_before_ = 0;  ///< that came before this request
   std::size_t requests_ = 0;        ///< answered
+  HttpCounts& counts_;
   Reply reply_;
   std::size_t sent_ = 0;
 };

@@ -10,6 +10,7 @@
 
 #include "monitor/engine_metrics.hpp"
 #include "monitor/health_metrics.hpp"
+#include "monitor/http_metrics.hpp"
 #include "monitor/metric_builders.hpp"
 #include "monitor/sensor_exposition.hpp"
 #include "monitor/sensor_metrics.hpp"
@@ -18,7 +19,8 @@ namespace gyrod::monitor {
 
 Collector::Collector(CollectorOptions options, View view)
     : options_(std::move(options)), view_(std::move(view)) {
-  assert(options_.uptime_s && view_.engine && view_.visit_channels && view_.bus && view_.readiness);
+  assert(options_.uptime_s && options_.http && view_.engine && view_.visit_channels && view_.bus &&
+         view_.readiness);
 }
 
 std::string Collector::text() const {
@@ -28,6 +30,7 @@ std::string Collector::text() const {
   add_bus_metrics(view_.bus(), view_.readiness(), families);
   add_fleet_metrics(view_.fleet(), families);
   if (view_.state_file_errors) add_state_file_metrics(view_.state_file_errors(), families);
+  add_http_metrics(options_.http(), families);
   add_engine_metrics(engine, families);
   add_health_totals(engine, families);
 

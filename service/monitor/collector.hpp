@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "monitor/http_counts.hpp"
 #include "monitor/view.hpp"
 
 namespace gyrod::monitor {
@@ -17,6 +18,8 @@ struct CollectorOptions {
   double start_time_s = 0.0;
   /// Seconds since then; tests inject their own.
   std::function<double()> uptime_s;
+  /// Of the port that the text is asked for at.
+  std::function<HttpSnapshot()> http;
 };
 
 /// Thread-safe as far as the view is; holds no state of its own.

@@ -31,17 +31,21 @@ Json json_of(const live::Event& event) {
   return json;
 }
 
-Json events_json(const Request& request, const live::EventLog* log) {
-  const ApiQuery query(request, {"after", "limit", "sensor"});
+Json events_json(const Request& request, const live::EventLog* log, const std::string& epoch) {
+  const ApiQuery query(request, {"after", "epoch", "limit", "sensor"});
   live::EventLog::Query wanted;
   wanted.after = query.whole("after", 0, std::numeric_limits<std::int64_t>::max(), 0);
   wanted.limit = query.whole("limit", 1, live::EventLog::kCapacity, live::EventLog::kCapacity);
   wanted.sensor = query.text("sensor").value_or("");
+  if (query.text("epoch").value_or(epoch) != epoch) wanted.after = 0;  // another run's number
   wanted.newest = !query.text("after");
   const live::EventLog::Page page = log != nullptr ? log->read(wanted) : live::EventLog::Page{};
   Json events = Json::array();
   for (const live::Event& event : page.events) events.push_back(json_of(event));
-  return {{"events", std::move(events)}, {"first_id", page.first_id}, {"last_id", page.last_id}};
+  return {{"epoch", epoch},
+          {"events", std::move(events)},
+          {"first_id", page.first_id},
+          {"last_id", page.last_id}};
 }
 
 }  // namespace gyrod::monitor

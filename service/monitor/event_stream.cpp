@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <string_view>
 #include <utility>
 
@@ -37,6 +38,16 @@ bool EventStream::step(const StreamOptions& options, Deadline now) {
   next_ = now + options.ask_every;
   if (!transport_.is_writable()) return now - last_progress_ < options.patience;
   return ask(options, now) && send_on(now);
+}
+
+void EventStream::finish(const StreamOptions& options) noexcept {
+  try {
+    const Deadline now = std::chrono::steady_clock::now();
+    if (send_on(now) && all_sent() && ask(options, now)) (void)send_on(now);
+  } catch (const std::exception&) {
+    return;  // the source has failed
+  }
+  transport_.end_writing();
 }
 
 /// Takes what the client sends, which nobody reads, so that its end is seen.

@@ -35,6 +35,9 @@ class EventStream {
   /// @return false once the stream is over
   [[nodiscard]] bool step(const StreamOptions& options, Deadline now);
 
+  /// What the source has still to say, as far as the client takes it at once.
+  void finish(const StreamOptions& options) noexcept;
+
   /// What step() waits for.
   [[nodiscard]] pollfd waits_for() const noexcept;
   /// When step() has something to do even if the client does nothing.

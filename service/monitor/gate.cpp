@@ -53,29 +53,41 @@ std::optional<std::string> decode_base64(std::string_view text) {
   return bytes;
 }
 
-Answer who_are_you(std::string_view path, const AccessOptions& options) {
+Answer who_are_you(std::string_view path, const AccessOptions& options, Refusal why) {
   Answer answer =
       failure(401, path, "gyrod asks who you are: a token or a user of its configuration (monitor.auth)");
   if (!options.users_file.empty())
     answer.headers.emplace_back("WWW-Authenticate", R"(Basic realm="gyrod", charset="UTF-8")");
   else
     answer.headers.emplace_back("WWW-Authenticate", R"(Bearer realm="gyrod")");
+  answer.refusal = why;
+  return answer;
+}
+
+Answer wrong_name(std::string_view path) {
+  Answer answer = failure(
+      403, path,
+      "gyrod asks nobody on this machine who they are, so it answers to the names localhost, 127.0.0.1 "
+      "and [::1] alone: a page from elsewhere must not reach it by another; a proxy in front has to send "
+      "one of them as Host");
+  answer.refusal = Refusal::kHost;
   return answer;
 }
 
 Answer too_often(std::string_view path, std::string_view words) {
   Answer answer = failure(429, path, words);
   answer.headers.emplace_back("Retry-After", "2");
+  answer.refusal = Refusal::kGuessing;
   return answer;
 }
 
 }  // namespace
 
-Gate::Gate(const AccessOptions& options, std::string address, Warn warn)
+Gate::Gate(const AccessOptions& options, std::string address, Tell tell)
     : options_(options),
       address_(std::move(address)),
       names_matter_(is_loopback(address_) && !options.asks_who()),
-      warn_(std::move(warn)),
+      tell_(std::move(tell)),
       token_watch_(options.token_file),
       users_watch_(options.users_file),
       failures_(kFailures),
@@ -87,13 +99,7 @@ Gate::Gate(const AccessOptions& options, std::string address, Warn warn)
 }
 
 std::optional<Answer> Gate::refuse(const Visit& visit, RateLimit::Time now) {
-  if (names_matter_ && !may_call_us(visit.host)) {
-    return failure(
-        403, visit.path,
-        "gyrod asks nobody on this machine who they are, so it answers to the names localhost, 127.0.0.1 "
-        "and [::1] alone: a page from elsewhere must not reach it by another; a proxy in front has to send "
-        "one of them as Host");
-  }
+  if (names_matter_ && !may_call_us(visit.host)) return wrong_name(visit.path);
   // A supervisor knows no secrets, and "ok" is none.
   if (!options_.asks_who() || visit.path == "/healthz") return std::nullopt;
   switch (judge(visit.authorization, visit.address, now)) {
@@ -101,10 +107,12 @@ std::optional<Answer> Gate::refuse(const Visit& visit, RateLimit::Time now) {
       return std::nullopt;
     case Verdict::kNotNow:
       return too_often(visit.path, "too many wrong passwords: try again later");
-    case Verdict::kUnknown:
+    case Verdict::kUnnamed:
+      return who_are_you(visit.path, options_, Refusal::kNoCredentials);
+    case Verdict::kWrong:
       break;
   }
-  return who_are_you(visit.path, options_);
+  return who_are_you(visit.path, options_, Refusal::kWrongCredentials);
 }
 
 /// Against pages of other sites that have their name resolved to this machine (DNS rebinding).
@@ -115,7 +123,7 @@ bool Gate::may_call_us(std::string_view host) const {
 }
 
 Gate::Verdict Gate::judge(std::string_view authorization, const std::string& address, RateLimit::Time now) {
-  if (authorization.empty()) return Verdict::kUnknown;  // how a browser begins
+  if (authorization.empty()) return Verdict::kUnnamed;  // how a browser begins
   const Known known = this->known(now);
   // Not counted: too long to be guessed, and a scrape must not suffer from whoever guesses beside it.
   const auto token = after(authorization, "Bearer");
@@ -131,8 +139,8 @@ Gate::Verdict Gate::judge(std::string_view authorization, const std::string& add
   }
   failures_.take(address, now);
   all_failures_.take(kAnyAddress, now);
-  tell_of(address, now);
-  return Verdict::kUnknown;
+  tell_of_failure(address, now);
+  return Verdict::kWrong;
 }
 
 Gate::Known Gate::known(RateLimit::Time now) {
@@ -147,22 +155,31 @@ Gate::Known Gate::known(RateLimit::Time now) {
 /// A file that is no good leaves what was known before in force.
 void Gate::reload() noexcept {
   try {
-    if (known_.tokens && token_watch_.changed())
+    if (known_.tokens && token_watch_.changed()) {
       known_.tokens = std::make_shared<Tokens>(token_watch_.path(), FileOwner::kThisUser);
-    if (known_.users && users_watch_.changed())
+      tell_of_reading(token_watch_);
+    }
+    if (known_.users && users_watch_.changed()) {
       known_.users = std::make_shared<Users>(users_watch_.path(), FileOwner::kThisUser);
+      tell_of_reading(users_watch_);
+    }
   } catch (const std::exception& error) {
-    warn_(std::string("monitor.auth: ") + error.what() + "; what was read before stays in force");
+    tell_(Tone::kTrouble,
+          std::string("monitor.auth: ") + error.what() + "; what was read before stays in force");
   }
 }
 
-void Gate::tell_of(const std::string& address, RateLimit::Time now) {
+void Gate::tell_of_reading(const FileWatch& file) {
+  tell_(Tone::kNews, "monitor.auth: '" + file.path() + "' has changed and was read again");
+}
+
+void Gate::tell_of_failure(const std::string& address, RateLimit::Time now) {
   {
     const std::scoped_lock lock(mutex_);
     if (now < tell_again_) return;
     tell_again_ = now + kTellAgain;
   }
-  warn_("HTTP: wrong credentials from " + address + "; told once a minute");
+  tell_(Tone::kTrouble, "HTTP: wrong credentials from " + address + "; told once a minute");
 }
 
 void check_access(const AccessOptions& options, FileOwner owner) {

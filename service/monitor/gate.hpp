@@ -25,16 +25,18 @@ struct Visit {
   std::string address;             ///< of the client
 };
 
+/// How what is told is meant.
+enum class Tone { kNews, kTrouble };
 /// A line for the log.
-using Warn = std::function<void(const std::string& line)>;
+using Tell = std::function<void(Tone tone, const std::string& line)>;
 
 /// Thread-safe.
 class Gate {
  public:
   /// @param address what gyrod listens on
-  /// @param warn hears of wrong credentials and of files that cannot be read any more; never of a secret
+  /// @param tell hears of wrong credentials, and of files that are read again or cannot be; never of a secret
   /// @throws AccessError
-  Gate(const AccessOptions& options, std::string address, Warn warn);
+  Gate(const AccessOptions& options, std::string address, Tell tell);
 
   /// @return the answer to one that is not let in
   [[nodiscard]] std::optional<Answer> refuse(const Visit& visit, RateLimit::Time now);
@@ -44,19 +46,20 @@ class Gate {
     std::shared_ptr<const Tokens> tokens;
     std::shared_ptr<Users> users;
   };
-  enum class Verdict { kKnown, kUnknown, kNotNow };
+  enum class Verdict { kKnown, kUnnamed, kWrong, kNotNow };
 
   [[nodiscard]] bool may_call_us(std::string_view host) const;
   [[nodiscard]] Verdict judge(std::string_view authorization, const std::string& address,
                               RateLimit::Time now);
   [[nodiscard]] Known known(RateLimit::Time now);
   void reload() noexcept;
-  void tell_of(const std::string& address, RateLimit::Time now);
+  void tell_of_reading(const FileWatch& file);
+  void tell_of_failure(const std::string& address, RateLimit::Time now);
 
   AccessOptions options_;
   std::string address_;
   bool names_matter_;
-  Warn warn_;
+  Tell tell_;
   FileWatch token_watch_;
   FileWatch users_watch_;
   RateLimit failures_;      ///< wrong passwords of each address

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <chrono>
 #include <exception>
 #include <optional>
@@ -97,10 +98,28 @@ void tame(httplib::Request& request) {
 /// Of what does not go through cpp-httplib.
 std::string first_line(int status) {
   const std::string_view reason = status == 200   ? "OK"
+                                  : status == 304 ? "Not Modified"
                                   : status == 408 ? "Request Timeout"
                                   : status == 429 ? "Too Many Requests"
                                                   : "Request Header Fields Too Large";
   return "HTTP/1.1 " + std::to_string(status) + " " + std::string(reason) + "\r\n";
+}
+
+/// Of an answer with its first line, "HTTP/1.1 200 OK"; 0 if there is none.
+int status_of(std::string_view answer) {
+  constexpr std::size_t kBegin = std::string_view("HTTP/1.1 ").size();
+  int status = 0;
+  if (answer.size() >= kBegin + 3)
+    std::from_chars(answer.data() + kBegin, answer.data() + kBegin + 3, status);
+  return status;
+}
+
+/// Whether the client has what it would be answered (RFC 9110, section 13.1.2: tags are compared weakly).
+bool is_held(const httplib::Request& request, const Answer& answer) {
+  const auto tag = std::ranges::find(answer.headers, "ETag", &Header::first);
+  if (answer.status != 200 || tag == answer.headers.end()) return false;
+  const std::string held = request.get_header_value("If-None-Match");
+  return held == "*" || held.find(tag->second.substr(tag->second.find('"'))) != std::string::npos;
 }
 
 void add_default_headers(std::vector<Header>& headers) {
@@ -109,10 +128,10 @@ void add_default_headers(std::vector<Header>& headers) {
   }
 }
 
-std::string with_head(const Answer& answer) {
+std::string with_head(const Answer& answer, bool keep_open = false) {
   std::vector<Header> headers = answer.headers;
-  headers.emplace_back("Content-Type", answer.content_type);
-  headers.emplace_back("Connection", "close");
+  if (answer.status != 304) headers.emplace_back("Content-Type", answer.content_type);
+  headers.emplace_back("Connection", keep_open ? "keep-alive" : "close");
   if (answer.events) headers.emplace_back("X-Accel-Buffering", "no");
   add_default_headers(headers);
   std::string text = first_line(answer.status);
@@ -122,10 +141,10 @@ std::string with_head(const Answer& answer) {
 
 }  // namespace
 
-Reply refusal(int status, std::string_view words) {
+Reply refusal(int status, Refusal why, std::string_view words) {
   Answer answer{.status = status, .content_type = std::string(kText)};
   if (status == 429) answer.headers.emplace_back("Retry-After", "1");
-  return {with_head(answer).append(words).append("\n")};
+  return {.bytes = with_head(answer).append(words).append("\n"), .status = status, .refusal = why};
 }
 
 HttpExchange::HttpExchange(const Answerer& answer, Gate& gate, StreamHub& streams)
@@ -150,21 +169,26 @@ Reply HttpExchange::reply_to(std::string_view head, const std::string& address) 
   bool closes = false;
   address_ = address;
   reply_ = {};
+  held_.reset();
   understood_ = false;
   const bool whole = process_request(stream, kCloseAfterwards, closes, [&closes](httplib::Request& request) {
     tame(request);
     closes = closes || has_body(request);
   });
-  if (reply_.bytes.empty()) {
-    reply_.bytes = stream.take();
-    reply_.keep_open = whole && understood_ && !closes;
+  const bool stays = whole && understood_ && !closes;
+  if (held_ || reply_.bytes.empty()) {
+    reply_.bytes = held_ ? with_head(*held_, stays) : stream.take();
+    reply_.keep_open = stays;
   }
+  reply_.status = status_of(reply_.bytes);
+  if (!understood_) reply_.refusal = reply_.status == 414 ? Refusal::kTooLarge : Refusal::kMalformed;
   return std::move(reply_);
 }
 
 void HttpExchange::respond(const httplib::Request& request, httplib::Response& response) {
   understood_ = true;
   Answer answer = answer_to(request);
+  reply_.refusal = answer.refusal;
   if (answer.events) {
     reply_.bytes = with_head(answer);
     if (request.method == "HEAD") return;
@@ -175,11 +199,17 @@ void HttpExchange::respond(const httplib::Request& request, httplib::Response& r
       return;
     }
     reply_.bytes.clear();
+    reply_.refusal = Refusal::kStreams;
     answer = failure(503, request.path, "as many event streams as gyrod serves are open");
     answer.headers.emplace_back("Retry-After", "10");
   }
   add_default_headers(answer.headers);
   answer.headers.emplace_back("Vary", "Accept-Encoding");
+  if (is_held(request, answer)) {
+    answer.status = 304;
+    held_ = std::move(answer);
+    return;
+  }
   response.status = answer.status;
   for (const auto& [name, value] : answer.headers) response.set_header(name, value);
   response.set_header("Content-Type", answer.content_type);
@@ -196,6 +226,7 @@ Answer HttpExchange::answer_to(const httplib::Request& request) {
   if (request.method != "GET" && request.method != "HEAD") {
     Answer answer = failure(405, request.path, "only GET and HEAD");
     answer.headers.emplace_back("Allow", "GET, HEAD");
+    answer.refusal = Refusal::kMethod;
     return answer;
   }
   try {

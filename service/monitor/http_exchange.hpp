@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 
 #include "monitor/answer.hpp"
 #include "monitor/gate.hpp"
+#include "monitor/http_counts.hpp"
 #include "monitor/stream_hub.hpp"
 
 namespace gyrod::monitor {
@@ -22,6 +24,10 @@ inline constexpr std::size_t kMaxRequests = 1000;
 /// What a client gets.
 struct Reply {
   std::string bytes;
+  /// Of the answer in `bytes`; 0: it is none.
+  int status = 0;
+  /// Where set, the client is turned away.
+  std::optional<Refusal> refusal = {};
   /// Whether the client may ask more on the same connection.
   bool keep_open = false;
   /// Where set, `bytes` is the begin of an event stream.
@@ -30,7 +36,7 @@ struct Reply {
 };
 
 /// For requests that are answered without being understood.
-[[nodiscard]] Reply refusal(int status, std::string_view words);
+[[nodiscard]] Reply refusal(int status, Refusal why, std::string_view words);
 
 /// cpp-httplib reads requests and writes answers, in memory: it never sees a socket, so no client can hold it up.
 /// One thread.
@@ -50,9 +56,10 @@ class HttpExchange final : private httplib::Server {
   const Answerer& answer_;
   Gate& gate_;
   StreamHub& streams_;
-  std::string address_;      ///< of who asks now
-  bool understood_ = false;  ///< what is asked
-  Reply reply_;              ///< to that
+  std::string address_;         ///< of who asks now
+  bool understood_ = false;     ///< what is asked
+  Reply reply_;                 ///< to that
+  std::optional<Answer> held_;  ///< what the client has already, without its body
 };
 
 }  // namespace gyrod::monitor

@@ -29,8 +29,8 @@ constexpr std::chrono::milliseconds kAcceptPause{50};
 HttpServer::HttpServer(Socket listener, Answerer answer, const HttpOptions& options)
     : listener_(std::move(listener)),
       answer_(std::move(answer)),
-      warn_(options.warn),
-      gate_(options.access, options.address, options.warn),
+      tell_(options.tell),
+      gate_(options.access, options.address, options.tell),
       requests_(options.requests),
       streams_(options.streams) {
   if (options.access.uses_tls()) tls_.emplace(options.access.certificate_file, options.access.key_file);
@@ -111,7 +111,7 @@ void HttpServer::accept_clients(Deadline now) {
     Ssl tls = tls_ ? new_tls(socket.descriptor(), now) : nullptr;
     if (tls_ && tls == nullptr) continue;  // no memory
     clients_.emplace(next_number_++,
-                     Client(Transport(std::move(socket), std::move(tls)), std::move(address), now));
+                     Client(Transport(std::move(socket), std::move(tls)), std::move(address), now, counts_));
   }
 }
 
@@ -119,9 +119,11 @@ Ssl HttpServer::new_tls(int descriptor, Deadline now) {
   if (now >= look_for_certificate_) {
     look_for_certificate_ = now + kLookForCertificate;
     try {
-      tls_->renew();
+      if (tls_->renew())
+        tell_(Tone::kNews, "monitor.tls: a new certificate was read; new connections use it");
     } catch (const AccessError& error) {
-      warn_(std::string("monitor.tls: ") + error.what() + "; the certificate before stays in use");
+      tell_(Tone::kTrouble,
+            std::string("monitor.tls: ") + error.what() + "; the certificate before stays in use");
     }
   }
   return tls_->serve(descriptor);
@@ -130,6 +132,7 @@ Ssl HttpServer::new_tls(int descriptor, Deadline now) {
 void HttpServer::take_answers() {
   for (Done& done : pool_.take_done()) {
     --jobs_;
+    counts_.count(done.reply.status, done.reply.refusal);
     go_on(done.client, std::move(done.reply));
   }
 }
@@ -154,7 +157,7 @@ void HttpServer::hand_out_requests(Deadline now) {
     if (!client.has_request()) continue;
     std::string request = client.take_request();
     if (!requests_.take(client.address(), now)) {
-      client.answer(refusal(429, "more than 200 requests a second from this address"));
+      client.refuse(429, Refusal::kRate, "more than 200 requests a second from this address");
       continue;
     }
     pool_.add({number, std::move(request), client.address()});
@@ -169,9 +172,10 @@ std::size_t HttpServer::unsent_bytes() const {
 }
 
 void HttpServer::drop_deaf_ones(Deadline now) {
-  std::erase_if(clients_, [now](const auto& each) {
+  const std::size_t dropped = std::erase_if(clients_, [now](const auto& each) {
     return each.second.unsent_bytes() > 0 && each.second.idle_since() < now - kDeafTime;
   });
+  counts_.count(Refusal::kNotTaken, dropped);
 }
 
 /// @return whether there was one
@@ -179,6 +183,7 @@ bool HttpServer::drop_longest_idle() {
   const auto since = [](const auto& each) { return each.second.idle_since().value_or(Deadline::max()); };
   const auto longest = std::ranges::min_element(clients_, {}, since);
   if (longest == clients_.end() || !longest->second.idle_since()) return false;
+  counts_.count(Refusal::kNoPlace);
   clients_.erase(longest);
   return true;
 }

@@ -16,6 +16,7 @@
 #include "monitor/answer_pool.hpp"
 #include "monitor/client.hpp"
 #include "monitor/gate.hpp"
+#include "monitor/http_counts.hpp"
 #include "monitor/polling.hpp"
 #include "monitor/rate_limit.hpp"
 #include "monitor/socket.hpp"
@@ -31,7 +32,7 @@ struct HttpOptions {
   StreamOptions streams = {};
   /// Requests of an address: far more than any page or scraper.
   RateLimit::Options requests = {.burst = 1000.0, .per_second = 200.0};
-  Warn warn = [](const std::string&) {};
+  Tell tell = [](Tone, const std::string&) {};
 };
 
 /// One thread moves the bytes of all clients and never waits for one of them; a few make answers; one more
@@ -49,6 +50,9 @@ class HttpServer {
   void start();
   /// Wakes the threads from whatever they wait for, and joins them. Can be called twice.
   void stop() noexcept;
+
+  /// What became of requests so far. Thread-safe.
+  [[nodiscard]] HttpSnapshot counts() const noexcept { return counts_.snapshot(); }
 
  private:
   using Clients = std::map<std::uint64_t, Client>;  ///< in the order of their connection
@@ -68,8 +72,9 @@ class HttpServer {
 
   Socket listener_;
   Answerer answer_;
-  Warn warn_;
+  Tell tell_;
   Gate gate_;
+  HttpCounts counts_;
   std::optional<Tls> tls_;
   RateLimit requests_;
   WakeSignal wake_;

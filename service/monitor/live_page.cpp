@@ -1,6 +1,8 @@
 #include "monitor/live_page.hpp"
 
 #include <array>
+#include <openssl/evp.h>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -23,17 +25,35 @@ std::string content_security_policy() {
   return web::policy(kParts) + "; connect-src 'self'; img-src data:; frame-ancestors 'none'";
 }
 
+/// Weak, since the page may come compressed.
+std::string entity_tag(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::array<unsigned char, 32> digest{};
+  if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("SHA-256 is not to be had");
+  std::string tag = "W/\"";
+  for (const unsigned char byte : digest) {
+    tag += kDigits[byte / 16U];
+    tag += kDigits[byte % 16U];
+  }
+  return tag + '"';
+}
+
 }  // namespace
 
 Answer live_page() {
   static const std::string page =
       web::page(kParts, [](std::string_view name) { return "@" + std::string(name) + "@"; });
   static const std::string policy = content_security_policy();
-  return {.content_type = "text/html; charset=utf-8",
-          .body = page,
-          .headers = {{"Content-Security-Policy", policy},
-                      // Another version of the daemon has another page, on the same address.
-                      {"Cache-Control", "no-cache"}}};
+  static const std::string tag = entity_tag(page);
+  return {
+      .content_type = "text/html; charset=utf-8",
+      .body = page,
+      .headers = {
+          {"Content-Security-Policy", policy},
+          // Another version of the daemon has another page, on the same address: to be asked for each time.
+          {"Cache-Control", "no-cache"},
+          {"ETag", tag}}};
 }
 
 }  // namespace gyrod::monitor

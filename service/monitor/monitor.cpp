@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include "monitor/api.hpp"
@@ -14,13 +15,14 @@ namespace gyrod::monitor {
 namespace {
 
 constexpr const char* kPrometheusText = "text/plain; version=0.0.4; charset=utf-8";
-CollectorOptions collector_options(const MonitorOptions& options) {
+CollectorOptions collector_options(const MonitorOptions& options, std::function<HttpSnapshot()> http) {
   using std::chrono::duration;
   const auto start = std::chrono::steady_clock::now();
   return {.max_channel_series = options.max_channel_series,
           .version = options.version,
           .start_time_s = duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(),
-          .uptime_s = [start] { return duration<double>(std::chrono::steady_clock::now() - start).count(); }};
+          .uptime_s = [start] { return duration<double>(std::chrono::steady_clock::now() - start).count(); },
+          .http = std::move(http)};
 }
 
 /// Of the same process, with the same clock.
@@ -45,15 +47,16 @@ class Monitor::Impl {
   void start() { server_.start(); }
   void stop() noexcept { server_.stop(); }
   [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
+  [[nodiscard]] std::string epoch() const { return epoch_of(collector_.options().start_time_s); }
 
  private:
   Impl(const MonitorOptions& options, View view, Socket listener)
       : readiness_(view.readiness),
-        collector_(collector_options(options), view),
+        collector_(collector_options(options, [this] { return server_.counts(); }), view),
         api_(api_options(collector_.options()), std::move(view)),
         port_(port_of(listener)),
         server_(std::move(listener), [this](const Request& request) { return answer(request); },
-                {.address = options.address, .access = options.access, .warn = options.warn}) {}
+                {.address = options.address, .access = options.access, .tell = options.tell}) {}
 
   [[nodiscard]] Answer answer(const Request& request) const {
     const std::string& path = request.path;
@@ -86,5 +89,6 @@ Monitor::~Monitor() = default;
 void Monitor::start() { impl_->start(); }
 void Monitor::stop() { impl_->stop(); }
 std::uint16_t Monitor::port() const noexcept { return impl_->port(); }
+std::string Monitor::epoch() const { return impl_->epoch(); }
 
 }  // namespace gyrod::monitor

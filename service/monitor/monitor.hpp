@@ -21,8 +21,8 @@ struct MonitorOptions {
   /// series.
   std::size_t max_channel_series = 200;
   AccessOptions access = {};
-  /// A line for the log: of wrong credentials, of files that cannot be read any more.
-  Warn warn = [](const std::string&) {};
+  /// A line for the log: of wrong credentials, of files that are read again or cannot be.
+  Tell tell = [](Tone, const std::string&) {};
   /// What gyrod_build_info says.
   std::string version = "unknown";
 };
@@ -52,6 +52,8 @@ class Monitor {
   void stop();
 
   [[nodiscard]] std::uint16_t port() const noexcept;
+  /// Another text after every start of the process.
+  [[nodiscard]] std::string epoch() const;
 
  private:
   class Impl;

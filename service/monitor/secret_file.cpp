@@ -1,49 +1,14 @@
 #include "monitor/secret_file.hpp"
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <sys/stat.h>
-#include <system_error>
-#include <unistd.h>
 
 namespace gyrod::monitor {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20U;
-
-/// Whether systemd has put the file there for this service.
-bool is_credential(const std::string& file) {
-  const char* folder = std::getenv("CREDENTIALS_DIRECTORY");
-  std::error_code error;
-  return folder != nullptr && fs::equivalent(fs::path(file).parent_path(), folder, error);
-}
-
-void check_access(const std::string& path, FileOwner owner) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0)
-    throw AccessError(path, std::string("cannot be read: ") + std::strerror(errno));
-  const bool credential = is_credential(path);
-  // systemd may let the service in by an access control list, whose mask shows in the place of the group's bits.
-  const mode_t forbidden = credential ? S_IRWXO : S_IRWXG | S_IRWXO;
-  if ((status.st_mode & forbidden) != 0) {
-    std::array<char, 8> mode{};
-    std::snprintf(mode.data(), mode.size(), "%04o", static_cast<unsigned>(status.st_mode & 07777U));
-    throw AccessError(path, std::string("its mode is ") + mode.data() +
-                                ": others than its owner may use it; expected 0600 or 0400");
-  }
-  const bool ours = status.st_uid == geteuid() || (credential && status.st_uid == 0);
-  if (owner == FileOwner::kAnyUser || ours) return;
-  throw AccessError(path, "belongs to user " + std::to_string(status.st_uid) + ", but gyrod runs as user " +
-                              std::to_string(geteuid()) +
-                              "; expected a file of its own, or one by systemd's LoadCredential=");
-}
 
 }  // namespace
 
@@ -61,7 +26,8 @@ std::string read_file(const std::string& path) {
 }
 
 std::string read_secret_file(const std::string& path, FileOwner owner) {
-  check_access(path, owner);
+  if (const std::string trouble = secrets::access_trouble(path, owner); !trouble.empty())
+    throw AccessError(path, trouble);
   return read_file(path);
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <sys/types.h>
 
+#include "secrets/access.hpp"
+
 namespace gyrod::monitor {
 
 /// A certificate, key, token or password file is no good. what() names the file, what is wrong, and what was expected;
@@ -17,18 +19,13 @@ class AccessError : public std::runtime_error {
       : std::runtime_error("'" + file + "': " + trouble) {}
 };
 
-/// Whose a secret file has to be.
-enum class FileOwner {
-  kThisUser,  ///< the user that this process runs as
-  kAnyUser,   ///< for a check on behalf of a service that runs as another one
-};
+using secrets::FileOwner;
 
 /// @throws AccessError where it cannot be read, is empty, or has more than 1 MiB
 [[nodiscard]] std::string read_file(const std::string& path);
 
-/// The same, for what others must not read. A file that systemd hands over (LoadCredential=, in
-/// $CREDENTIALS_DIRECTORY) may belong to root: systemd lets only the service read it.
-/// @throws AccessError also where its mode lets others than the owner in, or it belongs to somebody else
+/// The same, for what others must not read.
+/// @throws AccessError also where they could, or it belongs to somebody else (secrets/access.hpp)
 [[nodiscard]] std::string read_secret_file(const std::string& path, FileOwner owner);
 
 /// Notices that a file is another one than before.

@@ -73,6 +73,8 @@ Json json_of_channels(const stream::EngineSnapshot& engine) {
 
 }  // namespace
 
+std::string epoch_of(double start_time_s) { return std::to_string(std::llround(start_time_s * 1e6)); }
+
 Json status_json(const View& view, const ApiOptions& options, int overload_step) {
   const stream::EngineSnapshot engine = view.engine();
   const Readiness readiness = view.readiness();
@@ -84,7 +86,7 @@ Json status_json(const View& view, const ApiOptions& options, int overload_step)
           {"time_s", options.time_s()},
           {"start_time_s", options.start_time_s},
           {"uptime_s", options.uptime_s()},
-          {"epoch", std::to_string(std::llround(options.start_time_s * 1e6))},
+          {"epoch", epoch_of(options.start_time_s)},
           {"ready", readiness.ready},
           {"ready_reason", readiness.ready ? Json(nullptr) : Json(readiness.reason)},
           {"samples", monitor::json_of(engine.totals)},

@@ -22,6 +22,9 @@ struct ApiOptions {
   std::function<double()> time_s;
 };
 
+/// Another text after every start of the process. @param start_time_s s since the Unix epoch
+[[nodiscard]] std::string epoch_of(double start_time_s);
+
 /// @param overload_step worst over all sensors
 [[nodiscard]] Json status_json(const View& view, const ApiOptions& options, int overload_step);
 

@@ -17,10 +17,13 @@ void StreamHub::start() {
 void StreamHub::stop() noexcept {
   stopping_ = true;
   wake_.raise();
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  thread_.join();
   const std::scoped_lock lock(mutex_);
-  new_ones_.clear();
-  streams_.clear();
+  for (std::vector<EventStream>* streams : {&streams_, &new_ones_}) {
+    for (EventStream& stream : *streams) stream.finish(options_);
+    streams->clear();
+  }
 }
 
 StreamHub::Place StreamHub::reserve() {
@@ -71,7 +74,7 @@ void StreamHub::take_new_ones() {
 void StreamHub::step() noexcept {
   std::erase_if(streams_, [this](EventStream& stream) {
     try {
-      return stopping_ || !stream.step(options_, std::chrono::steady_clock::now());
+      return !stream.step(options_, std::chrono::steady_clock::now());
     } catch (const std::exception&) {
       return true;  // the source has failed; its client may ask again
     }

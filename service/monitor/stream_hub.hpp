@@ -27,7 +27,7 @@ class StreamHub {
   StreamHub& operator=(const StreamHub&) = delete;
 
   void start();
-  /// Ends all streams. Can be called twice.
+  /// Ends all streams; each source is asked once more, and what its client takes at once is sent. Can be called twice.
   void stop() noexcept;
 
   /// @return none where all are taken. Thread-safe.

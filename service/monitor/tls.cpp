@@ -109,13 +109,14 @@ Ssl Tls::serve(int descriptor) {
   return ssl;
 }
 
-void Tls::renew() {
+bool Tls::renew() {
   const bool certificate = certificate_.changed();
   const bool key = key_.changed();
-  if (!certificate && !key) return;
+  if (!certificate && !key) return false;
   SslContext context = make_tls(certificate_.path(), key_.path(), FileOwner::kThisUser);
   const std::scoped_lock lock(mutex_);
   context_ = std::move(context);
+  return true;
 }
 
 }  // namespace gyrod::monitor

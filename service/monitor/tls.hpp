@@ -31,8 +31,9 @@ class Tls {
   /// @return for a connected socket; none if there is no memory
   [[nodiscard]] Ssl serve(int descriptor);
   /// Looks whether there is a new certificate; connections that are open keep theirs.
+  /// @return whether there was
   /// @throws AccessError where it is no good: the one before stays
-  void renew();
+  bool renew();
 
  private:
   FileWatch certificate_;

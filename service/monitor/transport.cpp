@@ -67,6 +67,10 @@ std::uint64_t Transport::received_bytes() const noexcept {
   return tls_ == nullptr ? received_ : BIO_number_read(SSL_get_rbio(tls_.get()));
 }
 
+bool Transport::is_shaking_hands() const noexcept {
+  return tls_ != nullptr && received_bytes() > 0 && SSL_is_init_finished(tls_.get()) == 0;
+}
+
 void Transport::end_writing() noexcept {
   // After an error SSL_shutdown() must not be called.
   if (tls_ != nullptr && !broken_) {

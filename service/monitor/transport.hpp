@@ -36,6 +36,8 @@ class Transport {
   [[nodiscard]] bool is_writable() const noexcept;
   /// What to poll for before reading (POLLIN), writing (POLLOUT), or either.
   [[nodiscard]] pollfd waits_for(short events) const noexcept;
+  /// Whether the client has begun to agree on TLS, and is not done.
+  [[nodiscard]] bool is_shaking_hands() const noexcept;
   /// All that has come, the handshake included.
   [[nodiscard]] std::uint64_t received_bytes() const noexcept;
   /// Caps what the system holds for a client that does not read, and how long for one that is gone.

@@ -15,15 +15,18 @@ void Engine::Impl::judge_health() {
   registry_.for_each(options_.max_channels, [this](Channel& channel) { judged_.push_back(&channel); });
   HealthCounts by_health{};
   HealthCounts changes{};
+  unsigned overload_step = 0;
   for (Channel* channel : judged_) {  // only this thread removes channels
     const Channel::Judgement judgement = channel->judge_health(context);
     ++by_health[static_cast<std::size_t>(judgement.now.state)];
+    overload_step = std::max(overload_step, judgement.overload_step);
     if (!judgement.changed) continue;
     ++changes[static_cast<std::size_t>(judgement.now.state)];
     sink_.on_health(channel->sensor(), judgement.before, judgement.now);
   }
   const std::lock_guard lock(health_mutex_);
   by_health_ = by_health;
+  overload_step_ = overload_step;
   for (std::size_t i = 0; i < kHealthStates; ++i) health_changes_[i] += changes[i];
 }
 

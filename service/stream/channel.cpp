@@ -237,7 +237,7 @@ Channel::Judgement Channel::judge_health(HealthContext context) {
   const auto differs = [&](std::size_t axis) { return before.axis[axis].state != now.axis[axis].state; };
   const bool changed = !health_ || differs(0) || differs(1) || differs(2);
   health_ = now;
-  return {before, now, changed};
+  return {before, now, changed, context.overload_step};
 }
 
 std::optional<AllanCurves> Channel::curves_to_fit(double& sample_rate_hz) const {

@@ -111,6 +111,7 @@ class Channel {
     SensorHealth before;
     SensorHealth now;
     bool changed = false;
+    unsigned overload_step = 0;
   };
   /// Judges what was shown last. @param context but for the overload step, which the channel knows
   [[nodiscard]] Judgement judge_health(HealthContext context);

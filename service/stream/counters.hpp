@@ -117,6 +117,8 @@ struct EngineSnapshot {
   std::size_t queued_windows = 0;        ///< over all channels
   HealthCounts channels_by_health{};     ///< of those that were judged
   HealthCounts health_changes{};  ///< times that a sensor was found in a state, newly or with other axes
+  /// The worst of all sensors, as of the last Engine::judge_health(): 0 none, 1 hop widened, 2 passed through.
+  unsigned overload_step = 0;
   std::size_t workers = 0;
   std::size_t workers_busy = 0;
   TimeHistogram window_time;    ///< time a worker spent on one window of a sensor

@@ -181,6 +181,7 @@ EngineSnapshot Engine::Impl::snapshot() const {
     const std::lock_guard lock(health_mutex_);
     snapshot.channels_by_health = by_health_;
     snapshot.health_changes = health_changes_;
+    snapshot.overload_step = overload_step_;
   }
   snapshot.workers = options_.workers;
   snapshot.workers_busy = scheduler_ ? scheduler_->busy() : 0;

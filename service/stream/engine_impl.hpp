@@ -107,6 +107,7 @@ class Engine::Impl {
   mutable std::mutex health_mutex_;
   HealthCounts by_health_{};
   HealthCounts health_changes_{};
+  unsigned overload_step_ = 0;
   // What the fast loop has made in this call of push(), of the one sensor that is pushed.
   std::vector<DenoisedSample> outbox_;
   std::vector<DenoisedSample> realtime_outbox_;

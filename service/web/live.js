@@ -44,7 +44,7 @@
     try {
       addEvents((await gyrodFeed.json(`/api/v1/events?limit=${kEventsAtFirst}`)).events);
     } catch {
-      return; // those that come will be shown
+      missed = true; // the next status asks again
     }
   }
 
@@ -57,8 +57,9 @@
       gyrodEvents.begin(epoch);
       if (restarted) channel.begin();
     }
-    if (missed) fetchEvents();
+    const ask = missed;
     missed = false;
+    if (ask) fetchEvents();
     gyrodDaemon.vitals(byId("vitals"), data);
     overview.update(data);
     say("trouble", data.ready ? "" : `gyrod cannot denoise: ${data.ready_reason ?? "it does not say why"}.`);

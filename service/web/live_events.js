@@ -6,23 +6,27 @@ const gyrodEvents = (() => {
   const units = gyrodUnits;
   const kKept = 500;
   const kShown = 60;
-  let events = new Map(); // by id
+  let events = new Map(); // by run and id
   let epoch = null;
+  let run = 0; // of the daemon, while this page is open
 
-  /// Another run of the daemon counts its events anew.
+  const newestFirst = (a, b) => b.run - a.run || b.id - a.id;
+
+  /// Another run of the daemon counts its events anew; what was before it stays.
   function begin(newEpoch) {
     if (epoch === newEpoch) return;
-    if (epoch !== null) events = new Map();
+    run += 1;
     epoch = newEpoch;
   }
 
   function add(more) {
     let news = false;
     for (const event of more) {
-      if (!events.has(event.id)) news = true;
-      events.set(event.id, event);
+      const key = `${run} ${event.id}`;
+      if (!events.has(key)) news = true;
+      events.set(key, { ...event, run });
     }
-    if (events.size > kKept) events = new Map([...events].sort((a, b) => b[0] - a[0]).slice(0, kKept));
+    if (events.size > kKept) events = new Map([...events].sort(([, a], [, b]) => newestFirst(a, b)).slice(0, kKept));
     return news;
   }
 
@@ -51,8 +55,8 @@ const gyrodEvents = (() => {
 
   /// Writes the newest events of a sensor, or of all where `sensor` is null.
   function show(parent, sensor, open) {
-    const shown = [...events.values()].filter((e) => sensor === null || e.sensor === sensor).sort((a, b) => b.id - a.id).slice(0, kShown);
-    const key = `${epoch} ${sensor} ${units.unit("rate")} ${shown.map((e) => e.id).join()}`;
+    const shown = [...events.values()].filter((e) => sensor === null || e.sensor === sensor).sort(newestFirst).slice(0, kShown);
+    const key = `${epoch} ${sensor} ${units.unit("rate")} ${shown.map((e) => `${e.run} ${e.id}`).join()}`;
     if (parent.dataset.key === key) return;
     parent.dataset.key = key;
     if (shown.length === 0) return parent.replaceChildren(element("p", "Nothing has happened since gyrod started, or since its log begins.", "soft"));

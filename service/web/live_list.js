@@ -93,12 +93,13 @@ const gyrodList = (() => {
     const name = element("b", undefined, "name");
     const word = element("span", undefined, "word");
     const rate = element("span", undefined, "soft");
-    head.append(name, word, rate);
+    const why = element("span", undefined, "why");
+    head.append(name, why, word, rate);
     const cells = kAxes.map(cell);
     const box = element("div", undefined, "cells");
     box.append(...cells.map((c) => c.made));
     made.append(head, box);
-    return { made, name, word, rate, cells, row: null, unit: null };
+    return { made, name, why, word, rate, cells, row: null, unit: null };
   }
 
   const write = (place, text) => place.textContent !== text && (place.textContent = text);
@@ -113,6 +114,7 @@ const gyrodList = (() => {
     slot.row = row;
     slot.unit = units.unit("rate");
     write(slot.name, row.sensor);
+    write(slot.why, health.evidence(row.axes.find((a) => a.health === row.health) ?? {}));
     write(slot.word, health.words(row.health));
     slot.word.dataset.tone = health.state(row.health).tone;
     write(slot.rate, units.known(row.sample_rate_hz) ? `${units.plain(row.sample_rate_hz, 4)} Hz` : "rate not known yet");

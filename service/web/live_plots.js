@@ -132,8 +132,13 @@ const gyrodPlots = (() => {
     });
     made.say("waiting for the first report …");
 
-    /// needs_s is what the first unknown of N and B needs.
-    const seen = (allanData) => (units.known(own.needs_s) ? `, ${units.plain(allanData.at_rest_s ?? 0)} s of ${units.plain(own.needs_s)} s at rest` : "");
+    /// needs_s is what the first unknown of N and B needs at the least.
+    const seen = (allanData) => {
+      if (!units.known(own.needs_s)) return "";
+      const rest_s = allanData.at_rest_s ?? 0;
+      if (rest_s < own.needs_s) return `, ${units.plain(rest_s)} s of at least ${units.plain(own.needs_s)} s at rest`;
+      return `: ${units.plain(rest_s)} s at rest do not show it`;
+    };
     const coefficient = (name, kind, value, waits) => (units.known(value) ? `${name} = ${units.text(kind, value)}` : `${name}: not observable yet${waits}`);
 
     function update(allanData) {

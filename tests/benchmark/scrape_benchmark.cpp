@@ -37,9 +37,12 @@ View copying_view_of(const test::Shown& shown) {
 void scrape(benchmark::State& state) {
   const auto sensors = static_cast<std::size_t>(state.range(0));
   const test::Shown shown = gyrod_with(sensors);
-  const Collector collector(
-      {.max_channel_series = sensors, .version = "1", .start_time_s = 1.0, .uptime_s = [] { return 1.0; }},
-      copying_view_of(shown));
+  const Collector collector({.max_channel_series = sensors,
+                             .version = "1",
+                             .start_time_s = 1.0,
+                             .uptime_s = [] { return 1.0; },
+                             .http = [&shown] { return shown.http; }},
+                            copying_view_of(shown));
   std::size_t bytes = 0;
   for (auto unused : state) {
     bytes = collector.text().size();

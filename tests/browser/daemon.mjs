@@ -11,9 +11,11 @@ const domain = 220 + (process.pid % 11);
 const folder = mkdtempSync(join(tmpdir(), "gyrod-live-"));
 const running = new Set();
 
-export function writeFile(name, text) {
-  writeFileSync(join(folder, name), text);
-  return join(folder, name);
+export const pathOf = (name) => join(folder, name);
+
+export function writeFile(name, text, mode = 0o644) {
+  writeFileSync(pathOf(name), text, { mode });
+  return pathOf(name);
 }
 
 function start(args) {
@@ -42,15 +44,15 @@ export async function eventually(look, limit_ms = kWait_ms) {
 
 /// port 0: any free one. patch: keys of the configuration besides. @return {process, url, port}
 export async function startDaemon({ port = 0, patch = {} } = {}) {
-  const config = { ...patch, bus: { domain }, monitor: { port } };
+  const config = { ...patch, bus: { domain }, monitor: { ...patch.monitor, port } };
   const file = writeFile("gyrod.json", JSON.stringify(config));
   const process = start(["run", "--config", file]);
   const found = await eventually(() => /127\.0\.0\.1:(\d+)/.exec(process.said) ?? (process.child.exitCode !== null && [null, null]));
   if (!found?.[1]) throw new Error(`the daemon does not say where it listens: ${process.said}`);
-  return { process, port: Number(found[1]), url: `http://127.0.0.1:${found[1]}/` };
+  return { process, port: Number(found[1]), url: `${patch.monitor?.tls ? "https" : "http"}://127.0.0.1:${found[1]}/` };
 }
 
-export const startSensor = (...args) => start([...args, "--config", join(folder, "gyrod.json")]);
+export const startSensor = (...args) => start([...args, "--config", pathOf("gyrod.json")]);
 
 export async function cleanUp() {
   await Promise.all([...running].map((process) => stop(process, "SIGKILL")));

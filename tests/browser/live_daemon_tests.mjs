@@ -7,8 +7,8 @@ const kDegrees = 180 / Math.PI;
 const kFault = 8500; // samples: a level takes a while of rest to be learned
 const kEnd = 13500;
 
-/// A sensor at rest, at 100 Hz, that becomes three times as loud.
-function loudRecording() {
+/// A sensor at rest, at 100 Hz, that becomes three times as loud. end: samples.
+export function loudRecording(end = kEnd) {
   let state = 11;
   const uniform = () => {
     // mulberry32: a plainer generator's pairs are not independent, and rest is told by whiteness
@@ -18,7 +18,7 @@ function loudRecording() {
     return (((mixed ^ (mixed >>> 14)) >>> 0) + 0.5) / 2 ** 32;
   };
   const normal = () => Math.sqrt(-2 * Math.log(uniform())) * Math.cos(2 * Math.PI * uniform());
-  const rows = Array.from({ length: kEnd }, (_, n) => {
+  const rows = Array.from({ length: end }, (_, n) => {
     const rates = [0, 1, 2].map(() => (normal() * 0.006 * (n < kFault ? 1 : 3)).toFixed(9));
     return `${n},${n * 10_000_000},${rates.join()}`;
   });
@@ -86,6 +86,8 @@ export async function testDaemon(browser, daemon) {
   await rowOf(page, "calm").click();
   await page.waitForFunction(() => document.querySelectorAll("#channel canvas").length >= 2);
   await becomes(page, "loud", "noisy", "red");
+  const why = await rowOf(page, "loud").locator(".why").textContent();
+  expect(/^\d/.test(why) && (await rowOf(page, "calm").locator(".why").textContent()) === "", `the list says why: ${why}`);
   await inspected(reader, 1440);
   await loud.ended;
   await becomes(page, "loud", "silent", "grey");

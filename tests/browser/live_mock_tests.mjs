@@ -99,7 +99,7 @@ async function looks(browser, page) {
         expect(seen.words.includes(words), `${reader.where}: nothing says "${words}"`);
       }
       await reader.page.click('[aria-label^="z axis"]');
-      await reader.page.getByText("B: not observable yet, 320 s of 1000 s at rest").waitFor();
+      await reader.page.getByText("B: not observable yet, 320 s of at least 900 s at rest").waitFor();
       if (width === 390) {
         expect(!(await reader.page.isVisible("#list")), `${reader.where}: the list is still there`);
         await reader.page.click(".back");

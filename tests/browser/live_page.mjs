@@ -2,6 +2,7 @@
 // wanted. Environment: see harness.mjs.
 import { cleanUp, startDaemon } from "./daemon.mjs";
 import { conclude, expect, launch } from "./harness.mjs";
+import { testAccess } from "./live_access_tests.mjs";
 import { testDaemon } from "./live_daemon_tests.mjs";
 import { testMock } from "./live_mock_tests.mjs";
 
@@ -12,6 +13,7 @@ try {
   const kept = ["content-type", "content-security-policy"];
   const page = { body: await answer.text(), headers: Object.fromEntries(kept.map((name) => [name, answer.headers.get(name)])) };
   await testDaemon(browser, daemon);
+  await testAccess(browser);
   await testMock(browser, page);
 } catch (error) {
   expect(false, error.stack);

@@ -1,9 +1,10 @@
 // A reader of the live page, and what it must never see.
 import { expect } from "./harness.mjs";
 
-/// Opens the page in a tab of its own. quiet: what the console may say (a daemon that is gone is told there by the browser).
-export async function read(browser, url, { width = 1440, height = 900, scheme = "light", hash = "", quiet = /^$/ } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme });
+/// Opens the page in a tab of its own. quiet: what the console may say (a daemon that is gone is told there by the browser); access: how the
+/// browser gets in.
+export async function read(browser, url, { width = 1440, height = 900, scheme = "light", hash = "", quiet = /^$/, access = {} } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, ...access });
   const page = await context.newPage();
   const where = `${width} px, ${scheme}, ${hash || "no sensor"}`;
   page.on("console", (message) => expect(quiet.test(message.text()), `${where}: console says ${message.text()}`));

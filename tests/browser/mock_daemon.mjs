@@ -70,7 +70,7 @@ function allan() {
     at_rest_s: 320,
     axes: kAxes.map((_, i) => ({
       tau_s, deviation_radps: tau_s.map((tau) => Math.hypot(0.0006 / Math.sqrt(tau), 0.00004)), terms: [], angle_random_walk_radps_sqrt_hz: 0.0006,
-      bias_instability_radps: i === 2 ? null : 0.00006, rate_random_walk_radps_per_sqrt_s: null, needs_s: i === 2 ? 1000 : null,
+      bias_instability_radps: i === 2 ? null : 0.00006, rate_random_walk_radps_per_sqrt_s: null, needs_s: i === 2 ? 900 : null,
     })),
   };
 }

@@ -63,6 +63,8 @@ class Overload : public Rig {
     ASSERT_TRUE(eventually([&] { return output.count() >= kFlood - 256 - 16 - 32; }));
     EXPECT_GT(flagged(all.samples(), flag), 0U);
     EXPECT_GT(of(daemon, "gyrod_hops_widened_total"), 0.0);
+    EXPECT_TRUE(eventually(
+        [&] { return get(daemon, "/api/v1/events").find("Overload step ") != std::string::npos; }));
 
     std::size_t sent = kFlood;
     ASSERT_TRUE(eventually([&] {

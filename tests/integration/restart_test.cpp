@@ -20,14 +20,8 @@ constexpr std::uint64_t kWindow = 512;
 class Restart : public Rig {
  protected:
   /// The loopback network with a short lease: the sensor's reliable writer waits for a killed daemon until then.
-  Restart() {
-    write_file("network.xml", R"(<CycloneDDS xmlns="https://cdds.io/config"><Domain Id="any">
-      <General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
-        <AllowMulticast>false</AllowMulticast></General>
-      <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>120</MaxAutoParticipantIndex>
-        <Peers><Peer address="127.0.0.1"/></Peers><LeaseDuration>2s</LeaseDuration></Discovery>
-      </Domain></CycloneDDS>)");
-  }
+  Restart() { write_loopback("network.xml", 2); }
+
   std::unique_ptr<Process> start_without_history() {
     return start_daemon({.window_samples = kWindow, .patch = R"({"bus": {"network": "network.xml"}})"});
   }

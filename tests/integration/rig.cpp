@@ -65,6 +65,16 @@ Rig::Result Rig::run_on_bus(std::vector<std::string> arguments) {
   return run(arguments);
 }
 
+void Rig::write_loopback(const std::string& name, int lease_s) const {
+  write_file(name, R"(<CycloneDDS xmlns="https://cdds.io/config"><Domain Id="any">
+  <General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
+    <AllowMulticast>false</AllowMulticast></General>
+  <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>120</MaxAutoParticipantIndex>
+    <Peers><Peer address="127.0.0.1"/></Peers><LeaseDuration>)" +
+                       std::to_string(lease_s) + R"(s</LeaseDuration></Discovery>
+</Domain></CycloneDDS>)");
+}
+
 void Rig::write_config(const DaemonOptions& options, const std::string& name) const {
   nlohmann::json config = {
       {"bus",
@@ -129,6 +139,29 @@ std::optional<double> Rig::metric(const Process& daemon, const std::string& seri
     if (line.starts_with(series + " ")) return std::stod(line.substr(series.size() + 1));
   }
   return std::nullopt;
+}
+
+bool Rig::is_balanced(const Process& daemon) {
+  double received = -1.0;
+  double accounted = 0.0;
+  std::stringstream text(get(daemon, "/metrics"));
+  for (std::string line; std::getline(text, line);) {
+    const std::size_t end = line.rfind(' ');
+    if (line.starts_with('#') || end == std::string::npos) continue;
+    const std::string_view name = std::string_view(line).substr(0, line.find_first_of("{ "));
+    const double value = std::strtod(line.c_str() + end, nullptr);
+    if (name == "gyrod_samples_received_total") received = value;
+    if (name == "gyrod_samples_published_total" || name == "gyrod_samples_in_flight" ||
+        name == "gyrod_samples_rejected_total")
+      accounted += value;
+  }
+  return received == accounted;
+}
+
+std::string merged(const std::string& json, const std::string& patch) {
+  nlohmann::json both = nlohmann::json::parse(json);
+  both.merge_patch(nlohmann::json::parse(patch));
+  return both.dump();
 }
 
 std::string read_text(const std::string& file) {

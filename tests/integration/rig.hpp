@@ -51,6 +51,8 @@ class Rig : public ::testing::Test {
     std::string network = "loopback";
     std::string patch = "{}";  ///< what else differs: a JSON merge patch (RFC 7396) of the configuration
   };
+  /// Writes an XML file with the loopback network, where a killed process is gone after so long: a reliable writer waits for it until then.
+  void write_loopback(const std::string& name, int lease_s) const;
   /// Writes the configuration that start_daemon() would.
   void write_config(const DaemonOptions& options, const std::string& name = "gyrod.json") const;
   /// Writes the configuration and starts the daemon; waits until it serves. Overload is out of reach, so that
@@ -70,6 +72,8 @@ class Rig : public ::testing::Test {
   [[nodiscard]] static double of(const Process& daemon, const std::string& series) {
     return metric(daemon, series).value_or(-1.0);
   }
+  /// Whether, in one answer of the daemon, received = published + rejected + in flight.
+  [[nodiscard]] static bool is_balanced(const Process& daemon);
   /// Body of a GET on the daemon's port; empty if that fails.
   [[nodiscard]] static std::string get(const Process& daemon, const std::string& target);
   /// Its HTTP port, from its log.
@@ -85,6 +89,9 @@ class Rig : public ::testing::Test {
   std::uint32_t domain_;
   int started_ = 0;
 };
+
+/// A JSON object with what another one says besides (merge patch, RFC 7396).
+[[nodiscard]] std::string merged(const std::string& json, const std::string& patch);
 
 /// A whole file.
 [[nodiscard]] std::string read_text(const std::string& file);

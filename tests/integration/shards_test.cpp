@@ -38,6 +38,14 @@ void expect_none_twice(const Sequences& all) {
     EXPECT_EQ(std::ranges::adjacent_find(sequences), sequences.end()) << sensor << ": a number came twice";
 }
 
+std::size_t numbers_twice(const Sequences& all) {
+  std::size_t count = 0;
+  for (const auto& [sensor, sequences] : all) {
+    for (std::size_t k = 1; k < sequences.size(); ++k) count += sequences[k] == sequences[k - 1] ? 1U : 0U;
+  }
+  return count;
+}
+
 std::string sensor_name(std::size_t number) { return "imu_" + std::to_string(number); }
 
 std::size_t sensors_in(const fleet::Shard& shard) {
@@ -180,6 +188,8 @@ TEST_P(WhileTheCountChanges, NoSampleComesTwiceAndTheHolesAreAsPromised) {
     expect_none_twice(all);
     EXPECT_EQ(disputes, 0.0);
   }
+  RecordProperty("disputes", static_cast<int>(disputes));
+  RecordProperty("numbers_twice", static_cast<int>(numbers_twice(all)));
   for (const auto& [sensor, sequences] : all) {
     if (std::ranges::adjacent_find(sequences) != sequences.end()) {
       // Discovery itself came late: said, and only for that moment.

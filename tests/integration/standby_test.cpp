@@ -4,34 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include "rig.hpp"
+#include "standby_pair.hpp"
 #include "support/arrivals.hpp"
 #include "support/eventually.hpp"
 
 namespace gyrod::testing {
 namespace {
 
-class Standby : public Rig {
+class Standby : public StandbyPair {
  protected:
-  std::unique_ptr<Process> start_one(const std::string& name, int strength) {
-    write_config({.window_samples = 512,
-                  .patch = R"({"bus": {"output": {"ownership_strength": )" + std::to_string(strength) +
-                           R"(, "takeover_s": 0.5}}})"},
-                 name);
-    auto daemon = start({"run", "--config", path(name)});
-    if (!daemon->wait_for_err("/metrics"))
-      throw std::runtime_error("the daemon did not start: " + daemon->err());
-    return daemon;
-  }
-  /// The first is the stronger one. Both are there before the sensor, so that their outputs are the same bits.
-  void start_two() {
-    first_ = start_one("first.json", 20);
-    second_ = start_one("second.json", 10);
-    write_config({}, "gyrod.json");
-    ASSERT_TRUE(eventually([&] {
-      return of(*first_, "gyrod_standby_others") == 1.0 && of(*second_, "gyrod_standby_others") == 1.0;
-    }));
-  }
   [[nodiscard]] Arrivals arrivals() const {
     bus::BusOptions options;
     options.ownership_strength = 1;
@@ -44,8 +25,8 @@ class Standby : public Rig {
   void wait_for_duty(const Arrivals& output) {
     ASSERT_TRUE(output.more_arrive(200));
     ASSERT_TRUE(eventually([&] {
-      return of(*second_, "gyrod_standby_samples_let_go_total") > 100.0 &&
-             of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
+      return of(*second_, "gyrod_standby_samples_let_go_total") > 100.0 && publishes(*first_, 1.0) &&
+             publishes(*second_, 0.0);
     }));
   }
   /// Some more samples, none missing, and an orderly end of all three.
@@ -58,9 +39,6 @@ class Standby : public Rig {
     EXPECT_EQ(stop_daemon(*first_), 0);
     EXPECT_EQ(stop_daemon(*second_), 0);
   }
-
-  std::unique_ptr<Process> first_;
-  std::unique_ptr<Process> second_;
 };
 
 TEST_F(Standby, GoesOnWithTheSampleThatWouldHaveComeNextAndWithTheSameBitsWhenTheOtherIsKilled) {
@@ -84,7 +62,7 @@ TEST_F(Standby, GoesOnWithTheSampleThatWouldHaveComeNextAndWithTheSameBitsWhenTh
   }
 
   const Result offline =
-      run({"denoise", path("still.csv"), "-o", path("offline.csv"), "--config", path("first.json")});
+      run({"denoise", path("still.csv"), "-o", path("offline.csv"), "--config", path(kFirst)});
   ASSERT_EQ(offline.exit_code, 0) << offline.err;
   const auto expected = columns_of(path("offline.csv"), {"gyro_x_radps"});
   for (const auto& sample : output.samples())
@@ -98,12 +76,11 @@ TEST_F(Standby, GivesBackWithoutASeamWhenTheStrongerOneIsBack) {
   wait_for_duty(output);
   first_->signal(SIGTERM);
   EXPECT_EQ(first_->wait(), 0) << first_->err();
-  ASSERT_TRUE(eventually([&] { return of(*second_, "gyrod_standby_sensors") == 1.0; }));
+  ASSERT_TRUE(eventually([&] { return publishes(*second_, 1.0); }));
   ASSERT_TRUE(output.more_arrive(100));
-  first_ = start_one("first.json", 20);
-  ASSERT_TRUE(eventually([&] {
-    return of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
-  })) << first_->err();
+  first_ = start_one(kFirst);
+  ASSERT_TRUE(eventually([&] { return publishes(*first_, 1.0) && publishes(*second_, 0.0); }))
+      << first_->err();
   end_without_loss(output, *sensor);
 }
 
@@ -116,9 +93,7 @@ TEST_F(Standby, StandsInForOneThatIsStoppedForAWhileAndNothingIsMissing) {
   ASSERT_TRUE(eventually([&] { return of(*second_, "gyrod_standby_takeovers_total") >= 1.0; }));
   ASSERT_TRUE(output.more_arrive(200));
   first_->signal(SIGCONT);
-  ASSERT_TRUE(eventually([&] {
-    return of(*first_, "gyrod_standby_sensors") == 1.0 && of(*second_, "gyrod_standby_sensors") == 0.0;
-  }));
+  ASSERT_TRUE(eventually([&] { return publishes(*first_, 1.0) && publishes(*second_, 0.0); }));
   end_without_loss(output, *sensor);
 }
 

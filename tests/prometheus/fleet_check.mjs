@@ -8,7 +8,7 @@ import { recording } from "./faults.mjs";
 import { hasty, writeHastyRules } from "./hasty_rules.mjs";
 import { Rig, ask, eventually } from "./rig.mjs";
 
-const kSpeed = 15; // of sensors with a fault; health is judged once a second, so that a fault has to last for longer
+const kSpeed = 8; // of sensors with a fault; health is judged once a second, so that a fault has to last for longer
 const kDriveSpeed = 20;
 const kDrive_s = 600;
 const kLearned = 8500; // samples after which the bias of a sensor at rest is known

@@ -157,7 +157,7 @@ TEST_P(ImuTopicsTest, APublisherThatMissesItsDeadlineIsTold) {
   ImuSubscriber subscriber(topics, handler_);
   subscriber.start();
   const TopicWriter<sensor_msgs_msg_dds__Imu_> writer(writer_domain_.participant(), topic("imu"),
-                                                      imu_writer_qos(options_.ros2));
+                                                      imu_writer_qos(options_));
   wait_until([&] { return writer.has_readers() && topics.snapshot().matched_writers == 1; });
   testing::ImuMessage message = imu_message(1, 10, {-1.0, 0.0, 0.0});
   message.fields.header.frame_id = message.frame_id.data();

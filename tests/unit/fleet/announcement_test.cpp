@@ -9,13 +9,14 @@ namespace {
 using ::testing::SizeIs;
 
 TEST(Announcement, IsReadBackAsItWasTold) {
-  for (const Announcement& told : {Announcement{{2, 3}, true, {"a1", "b2"}}, Announcement{{1, 1}, false, {}}})
+  for (const Announcement& told :
+       {Announcement{{2, 3}, true, {"a1", "b2"}, {"c3"}}, Announcement{{1, 1}, false, {}}})
     EXPECT_EQ(parse_announcement(text_of(told)), told);
 }
 
 TEST(Announcement, IsTextThatOthersCanRead) {
-  EXPECT_EQ(text_of(Announcement{{2, 3}, true, {"a1", "b2"}}),
-            "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=a1,b2;");
+  EXPECT_EQ(text_of(Announcement{{2, 3}, true, {"a1", "b2"}, {"c3"}}),
+            "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=a1,b2;gyrod.greets=c3;");
 }
 
 TEST(Announcement, LeavesRoomForWhatOthersWriteBesides) {
@@ -32,11 +33,15 @@ TEST(Announcement, IsNoneWithoutAShardOrWithAnythingMalformed) {
 }
 
 TEST(Announcement, OfAStrangerIsBounded) {
-  std::string text = "gyrod.shard=1/2;gyrod.state=active;gyrod.yields=";
-  for (int i = 0; i < 100000; ++i) text += "x,";
+  std::string text = "gyrod.shard=1/2;gyrod.state=active";
+  for (const char* key : {";gyrod.yields=", ";gyrod.greets="}) {
+    text += key;
+    for (int i = 0; i < 100000; ++i) text += "x,";
+  }
   const auto read = parse_announcement(text);
   ASSERT_TRUE(read.has_value());
   EXPECT_THAT(read->yields_to, SizeIs(kMostPeers));
+  EXPECT_THAT(read->greets, SizeIs(kMostPeers));
 }
 
 }  // namespace

@@ -254,6 +254,23 @@ TEST(Roster, TheSmallerCountServesUntilTheLargerIsActive) {
   EXPECT_EQ(small.announcement().yields_to, std::vector<std::string>{"b"});
 }
 
+TEST(Roster, WhoJoinsIsGreetedByThoseThatHaveHeardOfItAndWaitsForAllOfThem) {
+  Roster joining("b", {2, 2}, State::kJoining);
+  EXPECT_TRUE(joining.greeted()) << "nobody else is there";
+  joining.show("a", active({1, 1}));
+  joining.show("c", {{2, 3}, false, {}, {"b"}});
+  EXPECT_FALSE(joining.greeted());
+  EXPECT_EQ(joining.announcement().greets, std::vector<std::string>{"c"});
+
+  Roster serving("a", {1, 1}, State::kActive);
+  serving.show("b", joining.announcement());
+  joining.show("a", serving.announcement());
+  EXPECT_TRUE(joining.greeted());
+  joining.advance_to(State::kActive);
+  serving.show("b", joining.announcement());
+  EXPECT_TRUE(serving.announcement().greets.empty()) << "it has joined";
+}
+
 TEST(Roster, TwoThatLostSightOfOneAnotherAreADisputeWhenTheyMeet) {
   Roster large("b", {2, 2}, State::kActive);
   large.show("a", active({1, 1}, {"b"}));

@@ -82,6 +82,7 @@ TEST_F(AbuseTest, MoreIdleConnectionsThanPlacesKeepNobodyOut) {
   expect_service();
   const auto half = open(200, "GET / HTTP/1.1\r\nHost: localhost\r\n");
   expect_service();
+  EXPECT_GT(server_->counts().refused(Refusal::kNoPlace), 100U) << "400 clients for 256 places";
 }
 
 TEST_F(AbuseTest, ConnectionsThatLeaveTakeTheirDescriptorsAlong) {
@@ -98,6 +99,7 @@ TEST_F(AbuseTest, AnswersThatNobodyTakesAreBoundedAndOthersAreServed) {
   const auto deaf = open(40, "GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
   for (int i = 0; i < 5; ++i) EXPECT_EQ(get(port_, "/").body, "fine\n");
   EXPECT_GT(get(port_, "/large").body.size(), kLargeBytes - 1);
+  EXPECT_GT(server_->counts().refused(Refusal::kNotTaken), 0U);
 }
 
 TEST_F(AbuseTest, ATrickleIsEndedInTimeHoweverSteadyItIs) {
@@ -114,6 +116,8 @@ TEST_F(AbuseTest, ATrickleIsEndedInTimeHoweverSteadyItIs) {
   sender.join();
   EXPECT_THAT(answer, AnyOf(Eq(""), StartsWith("HTTP/1.1 408 ")));
   EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds{10}) << "50 s at that pace";
+  EXPECT_EQ(server_->counts().refused(Refusal::kTimeout), 1U);
+  EXPECT_EQ(server_->counts().answered(408), 1U);
 }
 
 TEST_F(AbuseTest, ManyRequestsAtOnceOnOneConnectionAreAnsweredInTurn) {
@@ -203,6 +207,9 @@ TEST_F(AbuseTest, AnAddressThatAsksTooOftenIsTold) {
   const HttpAnswer answer = get(port, "/");
   EXPECT_EQ(answer.status, 429);
   EXPECT_THAT(answer.headers, HasSubstr("Retry-After: "));
+  EXPECT_EQ(strict.counts().refused(Refusal::kRate), 1U);
+  EXPECT_EQ(strict.counts().answered(429), 1U);
+  EXPECT_EQ(strict.counts().answered(200), 3U);
 }
 
 TEST_F(AbuseTest, AllOfItAtOnce) {

@@ -1,6 +1,7 @@
 /// The API's event streams: what comes when, and that what is new comes once.
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -127,7 +128,7 @@ TEST_F(ApiStreamTest, WithoutChannelsOnlyStatusAndEventsCome) {
   const auto sent = after(0.1);
   ASSERT_EQ(sent.size(), 1U);
   EXPECT_EQ(sent[0].event, "event");
-  EXPECT_EQ(sent[0].id, "1");
+  EXPECT_EQ(sent[0].id, "1700000000000000-1");
   EXPECT_EQ(sent[0].data.at("text"), "Stopping.");
 }
 
@@ -146,6 +147,38 @@ TEST_F(ApiStreamTest, WhoComesBackGetsTheEventsInBetween) {
   EXPECT_THAT(texts("77"), ElementsAre("one", "two", "three")) << "of a gyrod that has ended";
   EXPECT_THAT(texts(""), IsEmpty()) << "new here";
   EXPECT_THAT(texts("x1"), IsEmpty());
+  EXPECT_THAT(texts("1700000000000000-2"), ElementsAre("three"));
+  EXPECT_THAT(texts("1700000000000000-"), IsEmpty());
+  EXPECT_THAT(texts("1600000000000000-2"), ElementsAre("one", "two", "three")) << "another run's second";
+  EXPECT_THAT(texts("1600000000000000-9"), ElementsAre("one", "two", "three"));
+}
+
+TEST_F(ApiStreamTest, WhoLeavesBeforeTheFirstEventComesBackToItsPlace) {
+  live_.events.add(1.0, "", "before");
+  open("stream");
+  std::string place;
+  for (const Sent& sent : after(0.0)) place += sent.id;
+  EXPECT_EQ(place, "1700000000000000-1");
+  stream_.reset();
+  live_.events.add(2.0, "imu_front", "meanwhile");
+  live_.events.add(2.0, "imu_rear", "meanwhile");
+  for (const auto& [target, events] : {std::pair("stream", 2), std::pair("channels/imu_front/stream", 1)}) {
+    open(target, place);
+    int told = 0;
+    for (const Sent& sent : after(1.0)) told += sent.event == "event" ? 1 : 0;
+    EXPECT_EQ(told, events) << target;
+    for (const Sent& sent : after(1.0)) EXPECT_NE(sent.event, "event") << "told once";
+  }
+}
+
+TEST_F(ApiStreamTest, TheStatusComesBeforeTheEventsOfItsRun) {
+  live_.events.add(1.0, "", "one");
+  open("stream", "0");
+  std::vector<std::string> kinds;
+  for (const Sent& sent : after(0.0)) {
+    if (!sent.event.empty()) kinds.push_back(sent.event);
+  }
+  EXPECT_THAT(kinds, ElementsAre("status", "event"));
 }
 
 TEST_F(ApiStreamTest, AStreamOfASensorTellsAllAndThenWhatIsNew) {

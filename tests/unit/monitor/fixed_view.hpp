@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "monitor/http_counts.hpp"
 #include "monitor/view.hpp"
 
 namespace gyrod::monitor::test {
@@ -21,6 +22,7 @@ struct Shown {
   FleetSnapshot fleet;
   Readiness readiness{.ready = true, .reason = ""};
   std::uint64_t state_file_errors = 0;
+  HttpSnapshot http;
 };
 
 /// A sensor that has had windows: every figure known.
@@ -142,6 +144,8 @@ inline Shown busy_gyrod() {
                  .disputes = 31,
                  .foreign_samples = 32};
   shown.state_file_errors = 62;
+  for (std::size_t i = 0; i < shown.http.answers.size(); ++i) shown.http.answers[i] = 100 + i;
+  for (std::size_t i = 0; i < kRefusals; ++i) shown.http.refusals[i] = 200 + i;
   return shown;
 }
 

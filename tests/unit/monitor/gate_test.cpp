@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::Pair;
+using ::testing::StartsWith;
 
 constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
 /// Basic authentication (RFC 7617): base64 of "anna:open sesame".
@@ -42,7 +44,9 @@ class GateTest : public ::testing::Test {
   }
 
   [[nodiscard]] Gate gate(const AccessOptions& options, const std::string& address = "127.0.0.1") {
-    return {options, address, [this](const std::string& line) { log_.push_back(line); }};
+    return {options, address, [this](Tone tone, const std::string& line) {
+              log_.push_back((tone == Tone::kTrouble ? "! " : "") + line);
+            }};
   }
 
   /// Status of the refusal; 200: let in.
@@ -53,6 +57,14 @@ class GateTest : public ::testing::Test {
         {.path = path, .host = "gyrod.lan:9464", .authorization = authorization, .address = address},
         RateLimit::Time(at));
     return refused ? refused->status : 200;
+  }
+
+  /// The reason under which it is counted.
+  [[nodiscard]] static std::optional<Refusal> why(Gate& gate, const std::string& authorization) {
+    const auto refused =
+        gate.refuse({.path = "/", .host = "", .authorization = authorization, .address = "10.0.0.5"},
+                    RateLimit::Time(seconds{1000}));
+    return refused ? refused->refusal : std::nullopt;
   }
 
   [[nodiscard]] static std::string trouble_of(const AccessOptions& options) {
@@ -135,6 +147,19 @@ TEST_F(GateTest, GuessingIsSlowAndCostsOthersNothing) {
   EXPECT_EQ(ask(asks, kAnna, seconds{1002}), 200);
 }
 
+TEST_F(GateTest, GuessingIsCountedApartFromWhoBeginsAsABrowserDoes) {
+  Gate asks = gate({.token_file = token_file(), .users_file = users_file()});
+  EXPECT_EQ(why(asks, ""), Refusal::kNoCredentials);
+  EXPECT_EQ(why(asks, "Bearer a-wrong-token-of-some-length"), Refusal::kWrongCredentials);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(why(asks, "Basic YW5uYTo="), Refusal::kWrongCredentials);
+  EXPECT_EQ(why(asks, kAnna), Refusal::kGuessing);
+  EXPECT_EQ(why(asks, std::string("Bearer ") + kToken), std::nullopt);
+  Gate local = gate({});
+  const auto rebound =
+      local.refuse({.path = "/", .host = "evil.example", .authorization = "", .address = ""}, {});
+  EXPECT_EQ(rebound.value().refusal, Refusal::kHost);
+}
+
 TEST_F(GateTest, FilesThatChangeAreReadAgainAndBadOnesChangeNothing) {
   Gate asks = gate({.token_file = token_file()});
   const std::string old = std::string("Bearer ") + kToken;
@@ -143,10 +168,11 @@ TEST_F(GateTest, FilesThatChangeAreReadAgainAndBadOnesChangeNothing) {
   std::filesystem::rename(folder_.path("next"), folder_.path("token"));
   EXPECT_EQ(ask(asks, old, seconds{3}), 401);
   EXPECT_EQ(ask(asks, "Bearer fedcba9876543210fedcba9876543210", seconds{3}), 200);
+  EXPECT_THAT(log_, Contains("monitor.auth: '" + folder_.path("token") + "' has changed and was read again"));
   (void)secret("next", "short\n");
   std::filesystem::rename(folder_.path("next"), folder_.path("token"));
   EXPECT_EQ(ask(asks, "Bearer fedcba9876543210fedcba9876543210", seconds{5}), 200);
-  EXPECT_THAT(log_, Contains(AllOf(HasSubstr("line 1: a token of less than 16 characters"),
+  EXPECT_THAT(log_, Contains(AllOf(StartsWith("! "), HasSubstr("line 1: a token of less than 16 characters"),
                                    HasSubstr("stays in force"), Not(HasSubstr("short")))));
 }
 

@@ -50,6 +50,14 @@ TEST(Metrics, TheManualExplainsEveryReason) {
   }
 }
 
+TEST(Metrics, TheManualExplainsEveryReasonToTurnAClientAway) {
+  const std::string text = manual();
+  for (std::size_t i = 0; i < kRefusals; ++i) {
+    const std::string reason(name_of(static_cast<Refusal>(i)));
+    EXPECT_NE(text.find("\n| `" + reason + "` |"), std::string::npos) << reason;
+  }
+}
+
 TEST(Metrics, PromtoolAcceptsThem) {
   if (std::system("command -v promtool > /dev/null 2>&1") != 0) GTEST_SKIP() << "promtool is not installed";
   std::FILE* promtool = popen("promtool check metrics", "w");

@@ -13,8 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/monitor/exposition.hpp"
-#include "unit/monitor/fixed_view.hpp"
-#include "unit/monitor/http_client.hpp"
+#include "unit/monitor/monitor_fixture.hpp"
 
 namespace gyrod::monitor::test {
 namespace {
@@ -25,33 +24,6 @@ using ::testing::HasSubstr;
 
 /// The contract is a second; a machine that is busy with sanitizers gets some more.
 constexpr std::chrono::seconds kStopTime{5};
-
-MonitorOptions any_port() {
-  MonitorOptions options;
-  options.port = 0;
-  return options;
-}
-
-class MonitorTest : public testing::Test {
- protected:
-  /// The view may be changed before this.
-  void start() {
-    monitor_ = std::make_unique<Monitor>(any_port(), view_);
-    monitor_->start();
-    port_ = monitor_->port();
-  }
-
-  [[nodiscard]] steady_clock::duration time_to_stop() {
-    const auto begin = steady_clock::now();
-    monitor_->stop();
-    return steady_clock::now() - begin;
-  }
-
-  Shown shown_ = busy_gyrod();
-  View view_ = view_of(shown_);
-  std::unique_ptr<Monitor> monitor_;
-  std::uint16_t port_ = 0;
-};
 
 TEST_F(MonitorTest, MetricsComeAsPrometheusText) {
   start();

@@ -15,7 +15,8 @@ inline std::string exposition_of(const Shown& shown, std::size_t max_channel_ser
   const Collector collector({.max_channel_series = max_channel_series,
                              .version = "1.2.3",
                              .start_time_s = 1.7e9,
-                             .uptime_s = [] { return 42.5; }},
+                             .uptime_s = [] { return 42.5; },
+                             .http = [&shown] { return shown.http; }},
                             view_of(shown));
   return collector.text();
 }

@@ -37,12 +37,13 @@ class Repeating final : public EventSource {
   void append(std::string& text) override {
     ++counters_.asked;
     if (text_ == "throw") throw std::runtime_error("no more");
-    text += text_;
+    text += text_ == "counted" ? "data: " + std::to_string(++said_) + "\n\n" : text_;
   }
 
  private:
   Counters& counters_;
   std::string text_;
+  int said_ = 0;
 };
 
 class StreamTest : public ::testing::Test {
@@ -59,10 +60,11 @@ class StreamTest : public ::testing::Test {
 
   [[nodiscard]] Answer answer(const Request& request) {
     if (request.path == "/text") return {.body = "text\n"};
-    const std::string said = request.path == "/huge"    ? std::string(std::size_t{1} << 20U, '.')
-                             : request.path == "/throw" ? "throw"
-                             : request.path == "/quiet" ? ""
-                                                        : "data: x\n\n";
+    const std::string said = request.path == "/huge"      ? std::string(std::size_t{1} << 20U, '.')
+                             : request.path == "/throw"   ? "throw"
+                             : request.path == "/counted" ? "counted"
+                             : request.path == "/quiet"   ? ""
+                                                          : "data: x\n\n";
     return {.content_type = "text/event-stream",
             .body = "retry: 2000\n\n",
             .events = std::make_unique<Repeating>(counters_, said)};
@@ -149,6 +151,9 @@ TEST_F(StreamTest, AllPlacesTakenIsSaidAndAPlaceIsGivenBack) {
   EXPECT_EQ(refused.status, 503);
   EXPECT_THAT(refused.headers, AllOf(HasSubstr("Retry-After: "), HasSubstr("application/json")));
   EXPECT_THAT(refused.body, HasSubstr("{\"error\":\"as many event streams"));
+  EXPECT_EQ(server_->counts().refused(Refusal::kStreams), 1U);
+  EXPECT_EQ(server_->counts().answered(503), 1U);
+  EXPECT_EQ(server_->counts().answered(200), 2U) << "the streams that are open";
   EXPECT_EQ(get(port_, "/text").status, 200);
   first.reset();
   ASSERT_TRUE(come_to(counters_.alive, 1));
@@ -169,6 +174,15 @@ TEST_F(StreamTest, AClientThatTalksIntoItsStreamIsDropped) {
   ASSERT_TRUE(come_to(counters_.alive, 1));
   (void)client->send(std::string(100'000, 'x'));
   EXPECT_TRUE(come_to(counters_.alive, 0));
+}
+
+TEST_F(StreamTest, ASourceHasTheLastWord) {
+  options_.ask_every = std::chrono::minutes{10};
+  start();
+  const auto client = open("/counted");
+  (void)client->receive_until("data: 1\n\n");
+  server_->stop();
+  EXPECT_THAT(client->receive(), HasSubstr("data: 2\n\n"));
 }
 
 TEST_F(StreamTest, StopEndsAllStreams) {

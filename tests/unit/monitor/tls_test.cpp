@@ -2,6 +2,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -39,7 +40,8 @@ class TlsTest : public ::testing::Test {
         std::move(listener), answer_to,
         HttpOptions{
             .access = {.certificate_file = folder_.path("tls.pem"), .key_file = folder_.path("tls.key")},
-            .streams = {.ask_every = std::chrono::milliseconds{2}}});
+            .streams = {.ask_every = std::chrono::milliseconds{2}},
+            .tell = [this](Tone tone, const std::string& line) { hear(tone, line); }});
     server_->start();
   }
 
@@ -66,6 +68,17 @@ class TlsTest : public ::testing::Test {
     return "none";
   }
 
+  void hear(Tone tone, const std::string& line) {
+    const std::scoped_lock lock(mutex_);
+    log_ += (tone == Tone::kTrouble ? "! " : "") + line + "\n";
+  }
+  [[nodiscard]] std::string log() {
+    const std::scoped_lock lock(mutex_);
+    return log_;
+  }
+
+  std::mutex mutex_;
+  std::string log_;  ///< guarded by the mutex
   testing::ScratchFolder folder_;
   std::uint16_t port_ = 0;
   std::unique_ptr<HttpServer> server_;
@@ -104,6 +117,7 @@ TEST_F(TlsTest, PlainRequestsAndGarbageAreClosedAndTheNextClientIsServed) {
     (void)client.receive();
   }
   EXPECT_THAT(TlsClient(port_).get("/"), HasSubstr(" 200 "));
+  EXPECT_EQ(server_->counts().refused(Refusal::kTls), 3U);
 }
 
 TEST_F(TlsTest, AHalfOpenHandshakeIsEndedAndHoldsNobodyUp) {
@@ -111,12 +125,14 @@ TEST_F(TlsTest, AHalfOpenHandshakeIsEndedAndHoldsNobodyUp) {
   ASSERT_TRUE(half.send(std::string("\x16\x03\x01\x02", 4)));
   EXPECT_THAT(TlsClient(port_).get("/"), HasSubstr(" 200 "));
   EXPECT_EQ(half.receive(), "");
+  EXPECT_EQ(server_->counts().refused(Refusal::kTls), 1U);
 }
 
 TEST_F(TlsTest, ANewCertificateIsUsedWithoutARestartAndABadOneIsNot) {
   EXPECT_EQ(TlsClient(port_).server(), "first");
   install(make_certificate("second"));
   EXPECT_TRUE(testing::eventually([&] { return TlsClient(port_).server() == "second"; }));
+  EXPECT_THAT(log(), HasSubstr("monitor.tls: a new certificate was read"));
   install({make_certificate("third").certificate, make_certificate("other").key});
   EXPECT_TRUE(testing::eventually([&] { return TlsClient(port_).server() == "second"; }));
 }

@@ -1,0 +1,61 @@
+#include "bus/other_daemons.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace gyrod::bus {
+namespace {
+
+/// How long what another daemon has published may wait to be looked at.
+constexpr double kLongestTick_s = 0.02;
+
+/// Other daemons that are looked at; more would be a mistake.
+constexpr std::size_t kMostOthers = 16;
+
+std::uint32_t strength_of(dds_entity_t reader, dds_instance_handle_t writer) {
+  dds_builtintopic_endpoint_t* endpoint = dds_get_matched_publication_data(reader, writer);
+  if (endpoint == nullptr) return 0;
+  std::int32_t strength = 0;
+  (void)dds_qget_ownership_strength(endpoint->qos, &strength);
+  dds_builtintopic_free_endpoint(endpoint);
+  return static_cast<std::uint32_t>(std::max(strength, 0));
+}
+
+}  // namespace
+
+double steady_now_s() noexcept {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double tick_s(double takeover_s) noexcept { return std::min(kLongestTick_s, takeover_s / 20.0); }
+
+void OtherDaemons::look(dds_entity_t reader, double now_s) {
+  looked_s_ = now_s;
+  std::array<dds_instance_handle_t, kMostOthers> handles{};
+  const dds_return_t found = dds_get_matched_publications(reader, handles.data(), handles.size());
+  const std::size_t count =
+      std::min<std::size_t>(found > 0 ? static_cast<std::size_t>(found) : 0, kMostOthers);
+  stronger_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    // A writer without a strength is no daemon of these.
+    if (const std::uint32_t strength = strength_of(reader, handles[i]); strength > 0)
+      stronger_[handles[i]] = strength > strength_;
+  }
+}
+
+bool OtherDaemons::was_stopped(double now_s) noexcept {
+  if (now_s - looked_s_ < 0.5 * takeover_s_) return false;
+  looked_s_ = now_s;
+  if (stronger_.empty()) return false;
+  looking_since_s_ = now_s;
+  return true;
+}
+
+Others OtherDaemons::now(double now_s) const {
+  return {.any = !stronger_.empty(),
+          .stronger = std::ranges::any_of(stronger_, [](const auto& writer) { return writer.second; }),
+          .looked = now_s - looking_since_s_ >= kTimeToLook_s};
+}
+
+}  // namespace gyrod::bus
