@@ -9,8 +9,9 @@
 namespace gyrod::stream {
 namespace {
 
-/// The axes of a gyro have noise of a size: an axis that seems to have more than this, in variance, than the quietest, shakes.
-constexpr double kMostOfQuietest = 4.0;
+/// The axes of a gyro have noise of a size: an axis that seems to have more than this, in variance, than the quietest, shakes. At rest
+/// they differ by 1.5 (ADIS16405) to 2.2 (MPU6050).
+constexpr double kMostOfQuietest = 2.0;
 /// Beyond these the innovations are not those of the model: 0.6 to 0.8 is what a level 20 % too high looks like.
 constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;

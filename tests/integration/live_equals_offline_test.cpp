@@ -15,8 +15,12 @@ namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kSlowBuild = true;
+const std::vector<std::size_t> kWorkers = {1, 4};
+const std::vector<std::size_t> kBatches = {7};
 #else
 constexpr bool kSlowBuild = false;
+const std::vector<std::size_t> kWorkers = {1, 2, 4};
+const std::vector<std::size_t> kBatches = {1, 7, 64};
 #endif
 
 const std::vector<std::string> kRates = {"gyro_x_radps", "gyro_y_radps", "gyro_z_radps"};
@@ -53,9 +57,9 @@ class LiveEqualsOffline : public Rig {
     const auto denoised = columns_of(path("offline.csv"), columns);
     const auto realtime = columns_of(path("offline_realtime.csv"), columns);
     ASSERT_FALSE(denoised == realtime);
-    for (const std::size_t workers : {1U, 2U, 4U}) {
+    for (const std::size_t workers : kWorkers) {
       const auto daemon = start_daemon({.workers = workers});
-      for (const std::size_t batch : {1U, 7U, 64U}) {
+      for (const std::size_t batch : kBatches) {
         replay_both(path(recording), "batch" + std::to_string(batch), batch, unit, "live.csv",
                     "live_realtime.csv");
         const std::string where = std::to_string(workers) + " workers, batches of " + std::to_string(batch);

@@ -58,6 +58,7 @@ class Ros2Standby : public StandbyPair {
   static constexpr std::size_t kLag = 16;
 
   void SetUp() override {
+    takeover_s_ = 1.0;  // longer than a busy machine keeps a daemon waiting
     options_.patch = R"({"bus": {"ros2": {"topics": ["rt/imu/data_raw"]}}})";
     start_two();
     ASSERT_TRUE(
