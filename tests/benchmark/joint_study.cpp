@@ -147,6 +147,7 @@ core::JointOptions options_of(const Arguments& arguments) {
   set("still_log_prior", options.still_log_prior);
   set("switching_rate", options.switching_rate);
   set("likelihood_power", options.likelihood_power);
+  set("most_evidence", options.most_evidence);
   set("hand_over_samples", options.hand_over_samples);
   set("correction_rate", options.correction_rate);
   set("correction_share", options.correction_share);

@@ -61,6 +61,9 @@ struct JointOptions {
   /// Likelihoods are raised to this power: the innovations of a member that only nearly fits are not independent of one another, and say
   /// less than they seem to. Range 0..1.
   double likelihood_power = 0.5;
+  /// Most that one sample takes off the logarithm of a member's weight, beside the best one's. In a shock all members are far off, and the
+  /// one whose prediction the motion happens to cross would answer for all that was. Range 0..1e12.
+  double most_evidence = 2.0;
   /// What the bank's variance is multiplied by. It knows how well the best member does, and not that every member is a little wrong: its error
   /// squared is 1.13 to 1.21 times its variance, in the geometric mean of 18 rows, with six stretches of noise. Range 1..10.
   double variance_factor = 1.17;

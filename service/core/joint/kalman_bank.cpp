@@ -256,8 +256,8 @@ void KalmanBank::weigh(const std::array<double, kMembers>& surprise) noexcept {
     if (!model_.members[i].usable) continue;
     Member& member = members_[i];
     const double before = std::lerp(member.weight, prior_[i] / prior_sum_, switching_rate_);
-    member.weight =
-        before * member.density * std::exp(0.5 * options_.likelihood_power * (least - surprise[i]));
+    const double behind = 0.5 * options_.likelihood_power * (surprise[i] - least);
+    member.weight = before * member.density * std::exp(-std::min(behind, options_.most_evidence));
     sum += member.weight;
   }
   for (Member& member : members_) member.weight /= sum;

@@ -1,4 +1,5 @@
 // How the bank weighs its members, and what a model brings along that takes over.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -47,13 +48,17 @@ TEST(KalmanBank, TrustsTheMemberThatPredictsBest) {
 }
 
 // Two members that answer 0 whatever comes in, and expect different spreads: the mixture's variance, w P_1 + (1 - w) P_2, tells the weights.
-// They follow Bayes' rule with switching, written down here once more.
-TEST(KalmanBank, WeighsByEvidenceAndByTheChanceOfASwitch) {
+// They follow Bayes' rule with switching, written down here once more, with no more evidence by a sample than most_evidence.
+class KalmanBankEvidence : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(AtMost, KalmanBankEvidence, ::testing::Values(0.05, 0.5, 1e12));
+
+TEST_P(KalmanBankEvidence, WeighsByEvidenceAndByTheChanceOfASwitch) {
   constexpr double kNarrow = 2.0;  // S of either
   constexpr double kWide = 5.0;
   JointOptions options = bare();
   options.switching_rate = 0.01;
   options.likelihood_power = 0.4;
+  options.most_evidence = GetParam();
   JointModel model;
   core::MemberModel& narrow = model.member(MemberKind::kFull);
   narrow.blocks.add({.order = 1, .drive = 1.0, .signal = true});
@@ -69,9 +74,10 @@ TEST(KalmanBank, WeighsByEvidenceAndByTheChanceOfASwitch) {
   bank.use(model);
   double weight = 0.5;
   for (const double z : testing::times(testing::white_noise(300, 11), 1.7)) {
-    const auto evidence = [z](double S) { return std::pow(std::exp(-0.5 * z * z / S) / std::sqrt(S), 0.4); };
-    const double first = (0.99 * weight + 0.01 * 0.5) * evidence(kNarrow);
-    const double second = (0.99 * (1.0 - weight) + 0.01 * 0.5) * evidence(kWide);
+    // The narrow one is always the farther off.
+    const double behind = std::min(0.4 * 0.5 * (z * z / kNarrow - z * z / kWide), options.most_evidence);
+    const double first = (0.99 * weight + 0.01 * 0.5) * std::exp(-behind) / std::pow(kNarrow, 0.5 * 0.4);
+    const double second = (0.99 * (1.0 - weight) + 0.01 * 0.5) / std::pow(kWide, 0.5 * 0.4);
     weight = first / (first + second);
     EXPECT_NEAR(bank.step(z).realtime.variance, weight + 4.0 * (1.0 - weight), 1e-12);
   }
