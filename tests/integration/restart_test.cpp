@@ -68,7 +68,7 @@ TEST_F(Restart, KilledAtAnyMomentItGoesOnWhereItWasWithFullWindowsIfTheSensorKee
     ASSERT_TRUE(eventually([&] { return history(*daemon) > 0.0; }));
   }
   ASSERT_TRUE(has_published(*daemon, 500.0));
-  EXPECT_THAT(daemon->err(), HasSubstr("that were published before this start fill windows"));
+  EXPECT_THAT(daemon->err(), HasSubstr("that were published before fill windows"));
   // The sensor would wait for the killed readers' leases before it ends.
   EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();
   sensor->signal(SIGKILL);
@@ -110,6 +110,25 @@ TEST_F(Restart, WithoutHistoryItWarmsUpAndOnlyWhatWasInFlightAndWhatWasSentMeanw
                                  [](const auto& a, const auto& b) { return b.sequence != a.sequence + 1; }),
       samples.end())
       << "one hole";
+}
+
+// To DDS it is a new reader then, and gets all that the sensor keeps once more.
+TEST_F(Restart, PausedForLongerThanTheLeaseItPublishesNothingTwiceAndNothingIsMissing) {
+  const auto daemon = start_with_history();
+  const Arrivals output = arrivals();
+  const auto sensor = start_sensor("5000");
+  ASSERT_TRUE(has_published(*daemon, 1000.0));
+  daemon->signal(SIGSTOP);
+  ASSERT_TRUE(eventually([&] { return output.writers() == 0; })) << "its lease ends for the sensor, too";
+  daemon->signal(SIGCONT);
+  ASSERT_TRUE(output.more_arrive(1000));
+  EXPECT_TRUE(eventually([&] { return is_balanced(*daemon); }));
+  EXPECT_EQ(of(*daemon, "gyrod_samples_missing_total"), 0.0);
+  sensor->signal(SIGINT);
+  sensor->wait();
+  EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();
+  EXPECT_EQ(output.missing(), 0U) << output.jumps();
+  EXPECT_EQ(output.duplicates(), 0U) << output.jumps();
 }
 
 TEST_F(Restart, AnEndedSensorThatIsSentAgainIsPublishedAgain) {
