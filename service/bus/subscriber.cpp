@@ -243,7 +243,8 @@ class Subscriber::Impl {
     if (sensor.empty() || wire.size() > max_batch_samples_) {
       malformed_.fetch_add(1, std::memory_order_relaxed);
     } else {
-      if (info.valid_data && info.view_state == DDS_NEW_VIEW_STATE)
+      // What was cached before the writer was lost may come in the same go: it is of another generation.
+      if (info.valid_data && info.view_state == DDS_NEW_VIEW_STATE && info.absolute_generation_rank == 0)
         heed_beginning(sensor, info.publication_handle);
       run_.add(sensor, wire);
     }

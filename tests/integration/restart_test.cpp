@@ -1,4 +1,5 @@
 // A daemon is killed in the middle of its work and started again.
+#include <algorithm>
 #include <csignal>
 #include <string>
 
@@ -113,13 +114,14 @@ TEST_F(Restart, WithoutHistoryItWarmsUpAndOnlyWhatWasInFlightAndWhatWasSentMeanw
 }
 
 // To DDS it is a new reader then, and gets all that the sensor keeps once more.
-TEST_F(Restart, PausedForLongerThanTheLeaseItPublishesNothingTwiceAndNothingIsMissing) {
+TEST_F(Restart, PausedForLongerThanTheLeaseItPublishesNothingFromBeforeAgainAndNothingIsMissing) {
   const auto daemon = start_with_history();
   const Arrivals output = arrivals();
   const auto sensor = start_sensor("5000");
   ASSERT_TRUE(has_published(*daemon, 1000.0));
   daemon->signal(SIGSTOP);
   ASSERT_TRUE(eventually([&] { return output.writers() == 0; })) << "its lease ends for the sensor, too";
+  const std::uint64_t seen = output.samples().back().sequence;
   daemon->signal(SIGCONT);
   ASSERT_TRUE(output.more_arrive(1000));
   EXPECT_TRUE(eventually([&] { return is_balanced(*daemon); }));
@@ -128,7 +130,11 @@ TEST_F(Restart, PausedForLongerThanTheLeaseItPublishesNothingTwiceAndNothingIsMi
   sensor->wait();
   EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();
   EXPECT_EQ(output.missing(), 0U) << output.jumps();
-  EXPECT_EQ(output.duplicates(), 0U) << output.jumps();
+  // What waited during the pause may come twice, where the reader is found before the sensor is lost.
+  const auto samples = output.samples();
+  EXPECT_EQ(std::ranges::count_if(samples, [seen](const auto& one) { return one.sequence <= seen; }),
+            static_cast<std::ptrdiff_t>(seen) + 1)
+      << output.jumps();
 }
 
 TEST_F(Restart, AnEndedSensorThatIsSentAgainIsPublishedAgain) {
