@@ -1,11 +1,15 @@
 #include "app/engine_feed.hpp"
 
 #include <chrono>
+#include <thread>
 
 #include <spdlog/spdlog.h>
 
 namespace gyrod::app {
 namespace {
+
+/// Sensors that were lost together come back within this time.
+constexpr std::chrono::seconds kTogether{10};
 
 std::int64_t now_ns() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -41,6 +45,11 @@ void EngineInlet::end(std::string_view sensor) noexcept {
   engine_.end_of_stream(sensor);
 }
 
+void EngineInlet::come_again(std::string_view sensor) noexcept {
+  const std::lock_guard lock(mutex_);
+  engine_.come_again(sensor);
+}
+
 void EngineInlet::fall_silent(std::string_view sensor, stream::ChannelState why) noexcept {
   const std::lock_guard lock(mutex_);
   engine_.fall_silent(sensor, why);
@@ -66,6 +75,17 @@ void FeedFromBus::on_samples(std::string_view sensor, std::span<const stream::Sa
 
 void FeedFromBus::on_end(std::string_view sensor) noexcept {
   if (!imu_topics_.claims(sensor)) inlet_.end(sensor);
+}
+
+/// What leaves before a reader is found is not its own. Sensors that come back together wait once.
+void FeedFromBus::on_return(std::string_view sensor) noexcept {
+  if (imu_topics_.claims(sensor)) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (discovery_.count() > 0 && (!waited_ || now - *waited_ > kTogether)) {
+    std::this_thread::sleep_for(discovery_);
+    waited_ = std::chrono::steady_clock::now();
+  }
+  inlet_.come_again(sensor);
 }
 
 void FeedFromBus::on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 
 #include "bus/imu_subscriber.hpp"
 #include "bus/imu_topics.hpp"
@@ -22,6 +24,8 @@ class EngineInlet {
   /// As Engine::push(), of sensors that are served here.
   std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   void end(std::string_view sensor) noexcept;
+  /// As Engine::come_again().
+  void come_again(std::string_view sensor) noexcept;
   /// As Engine::fall_silent().
   void fall_silent(std::string_view sensor, stream::ChannelState why) noexcept;
   /// As Engine::tend(), unless somebody pushes at the moment: then at the next call.
@@ -49,16 +53,20 @@ class EngineInlet {
 /// What comes from gyrod's own topics.
 class FeedFromBus final : public bus::SampleHandler {
  public:
-  FeedFromBus(EngineInlet& inlet, const bus::ImuTopics& imu_topics)
-      : inlet_(inlet), imu_topics_(imu_topics) {}
+  /// @param discovery where a sensor that comes back has more to tell than what is new: how long readers are given that were lost with it
+  FeedFromBus(EngineInlet& inlet, const bus::ImuTopics& imu_topics, std::chrono::milliseconds discovery)
+      : inlet_(inlet), imu_topics_(imu_topics), discovery_(discovery) {}
   /// An id that is the name of a ROS 2 topic is taken: such samples are refused and counted as of no id.
   void on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept override;
   void on_end(std::string_view sensor) noexcept override;
+  void on_return(std::string_view sensor) noexcept override;
   void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override;
 
  private:
   EngineInlet& inlet_;
   const bus::ImuTopics& imu_topics_;
+  std::chrono::milliseconds discovery_;
+  std::optional<std::chrono::steady_clock::time_point> waited_;  ///< last
 };
 
 /// What comes from ROS 2. Logs the topics that were opened and refused.

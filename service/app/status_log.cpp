@@ -30,7 +30,7 @@ void StatusLog::log_changes(const stream::EngineSnapshot& now, std::size_t match
     spdlog::warn("overload: samples pass through undenoised ({} times)", total.overloads - before.overloads);
   constexpr auto kHistory = static_cast<std::size_t>(stream::RejectReason::kHistory);
   if (total.rejected[kHistory] > before.rejected[kHistory])
-    spdlog::info("{} samples that were published before this start fill windows",
+    spdlog::info("{} samples that were published before fill windows",
                  total.rejected[kHistory] - before.rejected[kHistory]);
   if (total.restarts > before.restarts)
     spdlog::warn("sequence or clock of a sensor began anew ({} times)", total.restarts - before.restarts);

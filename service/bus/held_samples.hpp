@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -12,11 +14,16 @@
 
 namespace gyrod::bus {
 
+/// Time for one that starts, or was stopped for a while, to find those that run and to hear what they have published.
+inline constexpr double kTimeToLook_s = 1.0;
+
 /// What is known of the other daemons.
 struct Others {
   bool any = false;       ///< there is another one
   bool stronger = false;  ///< and one that is stronger than this
   bool looked = true;     ///< there has been time to find them, and to hear what they published
+  /// When a stronger one last said that it is alive; readers drop what a weaker one sends until they have noticed that it does not.
+  double stronger_lived_s = std::numeric_limits<double>::lowest();
 };
 
 struct HoldRules {
@@ -32,9 +39,14 @@ struct HoldRules {
 /// At any time a sensor is published by one daemon, the *active* one. The others hold what they release, let go what they hear from
 /// the active one, and publish what they do not hear for `takeover_s`: a daemon that dies, stops or loses a sensor's input is
 /// replaced, and the first sample that comes from the next one is the first that was missing. Who turns active:
-///   nobody else is there or was, or this one is the strongest and nobody has published the sensor;
-///   this one is the strongest, and what it holds continues what the other has published: the takeover back, without a seam;
-///   a sample has been held for takeover_s; by the strongest for a quarter of it.
+///   nobody else is there or was, or this one is the strongest and the sensor is at its first sample;
+///   this one is the strongest, and what it holds continues what has been published: the takeover back, without a seam;
+///   a sample has been held for takeover_s, and no stronger one has given a sign of life for half of that;
+///   a stronger one lives, but has not published the sensor: after twice takeover_s. What one that lives has published stays its own in
+///   the readers: they would drop the sample.
+/// What one daemon releases at once another may still have in its window, up to a whole release of it. So the strongest, where samples
+/// are missing before its first or it has not heard where the others are, leaves them time until its next release has been held
+/// for takeover_s and kTimeToLook_s: by then they have published what is missing, if they have it.
 /// Who hears a stronger one turns passive. An active one publishes all that it releases, whatever weaker ones did meanwhile: as long as it
 /// says that it is alive, readers drop what those send.
 ///
@@ -52,6 +64,7 @@ class HeldSamples {
   /// The engine has released these.
   void release(std::span<const Sample> samples, double now_s) {
     if (ended_s_ && now_s - *ended_s_ > rules_.takeover_s) mark_.reset();
+    complete_ = false;
     for (const Sample& sample : samples) {
       if (size_ == held_.size()) grow();
       Held& held = held_[(first_ + size_++) % held_.size()];
@@ -60,23 +73,25 @@ class HeldSamples {
     }
   }
 
+  /// No more will be released, but for a sensor that begins anew.
+  void complete() noexcept { complete_ = true; }
+
   /// Another daemon has published the sensor's samples up to this one.
   void hear(const stream::PublishedMark& newest, bool from_stronger) noexcept {
-    mark_ = newest;
     ended_s_.reset();
     heard_ = true;
+    owned_ = from_stronger;
     if (from_stronger) active_ = false;
+    if (active_ && rules_.exclusive) return;
+    mark_ = newest;
     let_go_heard();
   }
 
-  /// Nobody else has the sensor any more: it has ended there, and may begin anew. Where readers take all that comes, it is the other that has
-  /// left: what it published is not published again by one that releases it a little later.
+  /// The other has left, or gives no sign of life, or has no more of the sensor. Where readers take all that comes, what it published is not
+  /// published again by one that releases it a little later, but may begin anew after that.
   void hear_end(double now_s) noexcept {
-    if (rules_.exclusive) {
-      mark_.reset();
-    } else {
-      ended_s_ = now_s;
-    }
+    owned_ = false;
+    if (!rules_.exclusive) ended_s_ = now_s;
   }
 
   /// This daemon was stopped for a while, and another may publish by now.
@@ -93,6 +108,7 @@ class HeldSamples {
       if (heard_) ++takeovers_;
     }
     for (; active_ && size_ > 0; drop()) publish(front().sample);
+    if (active_ && rules_.exclusive) mark_ = last_;
   }
 
   [[nodiscard]] bool active() const noexcept { return active_; }
@@ -103,8 +119,10 @@ class HeldSamples {
   [[nodiscard]] std::uint64_t takeovers() const noexcept { return takeovers_; }
 
  private:
-  /// The strongest waits for this part of takeover_s, so that no other one takes over meanwhile.
-  static constexpr double kStrongest = 0.25;
+  /// A writer's lease is the other half: readers that notice its end later than this daemon have this part of takeover_s for it.
+  static constexpr double kMargin = 0.5;
+  /// So many takeover_s a sample is held where a stronger one is alive and has not published the sensor.
+  static constexpr double kPatience = 2.0;
 
   struct Held {
     Sample sample;
@@ -112,7 +130,7 @@ class HeldSamples {
   };
 
   void let_go_heard() noexcept {
-    while (!active_ && size_ > 0 && is_published(front().sample)) {
+    while (!active_ && size_ > 0 && is_published(mark_of(front().sample))) {
       drop();
       ++let_go_;
     }
@@ -121,6 +139,7 @@ class HeldSamples {
   [[nodiscard]] const Held& front() const noexcept { return held_[first_]; }
 
   void drop() noexcept {
+    last_ = mark_of(front().sample);
     first_ = (first_ + 1) % held_.size();
     --size_;
   }
@@ -131,8 +150,17 @@ class HeldSamples {
     held_.resize(std::max<std::size_t>(64, 2 * held_.size()));
   }
 
-  [[nodiscard]] bool is_published(const Sample& sample) const noexcept {
+  static stream::PublishedMark mark_of(const Sample& sample) noexcept {
+    return {sample.sequence, sample.stamp_ns};
+  }
+
+  [[nodiscard]] bool is_published(const stream::PublishedMark& sample) const noexcept {
     return mark_ && sample.sequence <= mark_->sequence && sample.stamp_ns <= mark_->stamp_ns;
+  }
+
+  /// Whether the next sample after those that were published is the first that is held.
+  [[nodiscard]] bool continues() const noexcept {
+    return mark_ && (front().sample.sequence == mark_->sequence + 1 || (last_ && is_published(*last_)));
   }
 
   [[nodiscard]] bool may_publish(double now_s, const Others& others) const noexcept {
@@ -140,21 +168,44 @@ class HeldSamples {
     if (!others.looked) return false;
     if (!others.any && !heard_) return true;
     const bool strongest = others.any && !others.stronger;
+    if (rules_.exclusive) return strongest ? may_take_back(now_s) : may_stand_in(now_s, others);
     if (strongest && !mark_) return true;
-    if (!rules_.exclusive) {
-      const double since_s = std::max(front().since_s, unsure_until_s_);
-      return !others.any || now_s - since_s >= rules_.takeover_s;
-    }
-    if (strongest && front().sample.sequence == mark_->sequence + 1) return true;
-    // Where another has just left, readers may not know it yet, and would drop what comes at once.
-    return now_s - front().since_s >= (strongest ? kStrongest : 1.0) * rules_.takeover_s;
+    const double since_s = std::max(front().since_s, unsure_until_s_);
+    return !others.any || now_s - since_s >= rules_.takeover_s;
+  }
+
+  [[nodiscard]] bool may_take_back(double now_s) const noexcept {
+    if (continues() || (!mark_ && front().sample.sequence == 0)) return true;
+    const auto next = next_release_s();
+    return next && now_s - *next >= rules_.takeover_s + kTimeToLook_s;
+  }
+
+  /// Where another has just left, readers may not know it yet, and would drop what comes at once.
+  [[nodiscard]] bool may_stand_in(double now_s, const Others& others) const noexcept {
+    const double held_s = now_s - front().since_s;
+    if (now_s - others.stronger_lived_s < kMargin * rules_.takeover_s)
+      return !owned_ && held_s >= kPatience * rules_.takeover_s;
+    return held_s >= rules_.takeover_s;
+  }
+
+  /// When the samples were released that came after the first that is held, or that first one where no more will come.
+  [[nodiscard]] std::optional<double> next_release_s() const noexcept {
+    if (complete_) return front().since_s;
+    const auto at = [this](std::size_t i) { return held_[(first_ + i) % held_.size()].since_s; };
+    const auto all = std::views::iota(std::size_t{0}, size_);
+    const auto next =
+        std::ranges::partition_point(all, [&](std::size_t i) { return at(i) <= front().since_s; });
+    return next == all.end() ? std::nullopt : std::optional(at(*next));
   }
 
   HoldRules rules_;
   bool active_ = false;
   bool heard_ = false;                         ///< another one has ever published
   double unsure_until_s_ = 0.0;                ///< when others had not been looked for long enough, last
-  std::optional<stream::PublishedMark> mark_;  ///< the newest that was heard
+  bool owned_ = false;                         ///< readers have it from a stronger one, while that lives
+  bool complete_ = false;                      ///< all has been released
+  std::optional<stream::PublishedMark> mark_;  ///< the newest that was heard, or published here
+  std::optional<stream::PublishedMark> last_;  ///< the one before those that are held
   std::optional<double> ended_s_;              ///< when the other left, since it was heard
   std::vector<Held> held_;                     ///< ring
   std::size_t first_ = 0;

@@ -30,6 +30,13 @@ double steady_now_s() noexcept {
 
 double tick_s(double takeover_s) noexcept { return std::min(kLongestTick_s, takeover_s / 20.0); }
 
+void OtherDaemons::heed(std::span<const PromiseWatch::Event> signs) {
+  for (const PromiseWatch::Event& sign : signs) {
+    if (sign.kind == PromiseWatch::Event::Kind::kLivelinessLost) silent_.insert(sign.handle);
+    if (sign.kind == PromiseWatch::Event::Kind::kWriterBack) silent_.erase(sign.handle);
+  }
+}
+
 void OtherDaemons::look(dds_entity_t reader, double now_s) {
   looked_s_ = now_s;
   std::array<dds_instance_handle_t, kMostOthers> handles{};
@@ -42,6 +49,9 @@ void OtherDaemons::look(dds_entity_t reader, double now_s) {
     if (const std::uint32_t strength = strength_of(reader, handles[i]); strength > 0)
       stronger_[handles[i]] = strength > strength_;
   }
+  if (std::ranges::any_of(stronger_,
+                          [this](const auto& one) { return one.second && !silent_.contains(one.first); }))
+    stronger_lived_s_ = now_s;
 }
 
 bool OtherDaemons::was_stopped(double now_s) noexcept {
@@ -55,7 +65,8 @@ bool OtherDaemons::was_stopped(double now_s) noexcept {
 Others OtherDaemons::now(double now_s) const {
   return {.any = !stronger_.empty(),
           .stronger = std::ranges::any_of(stronger_, [](const auto& writer) { return writer.second; }),
-          .looked = now_s - looking_since_s_ >= kTimeToLook_s};
+          .looked = now_s - looking_since_s_ >= kTimeToLook_s,
+          .stronger_lived_s = stronger_lived_s_};
 }
 
 }  // namespace gyrod::bus

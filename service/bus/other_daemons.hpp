@@ -2,19 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <set>
+#include <span>
 
 #include <dds/dds.h>
 
 #include "bus/held_samples.hpp"
+#include "bus/promise_watch.hpp"
 
 namespace gyrod::bus {
 
 /// Seconds of a clock that nobody sets.
 [[nodiscard]] double steady_now_s() noexcept;
-
-/// Time for one that starts, or was stopped for a while, to find those that run and to hear what they have published.
-inline constexpr double kTimeToLook_s = 1.0;
 
 /// Pause between two looks at what others have published.
 [[nodiscard]] double tick_s(double takeover_s) noexcept;
@@ -27,6 +28,9 @@ class OtherDaemons {
   OtherDaemons(std::uint32_t strength, double takeover_s, double now_s)
       : strength_(strength), takeover_s_(takeover_s), looking_since_s_(now_s), looked_s_(now_s) {}
 
+  /// Which of them gave no sign of life, or do again, in the order it happened. To be called each tick before look(), where their writers
+  /// have a lease.
+  void heed(std::span<const PromiseWatch::Event> signs);
   /// Who is there. To be called each tick.
   void look(dds_entity_t reader, double now_s);
 
@@ -47,7 +51,9 @@ class OtherDaemons {
   double takeover_s_;
   double looking_since_s_;
   double looked_s_;  ///< last
+  double stronger_lived_s_ = std::numeric_limits<double>::lowest();
   std::map<dds_instance_handle_t, bool> stronger_;
+  std::set<dds_instance_handle_t> silent_;  ///< those that have let their lease end
 };
 
 }  // namespace gyrod::bus

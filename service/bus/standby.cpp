@@ -12,6 +12,7 @@
 
 #include "bus/held_samples.hpp"
 #include "bus/other_daemons.hpp"
+#include "bus/promise_watch.hpp"
 #include "bus/ticker.hpp"
 #include "bus/topic_reader.hpp"
 
@@ -23,7 +24,8 @@ struct Sensor {
   explicit Sensor(const HoldRules& rules) : denoised(rules), realtime(rules) {}
   HeldSamples<stream::DenoisedSample> denoised;
   HeldSamples<stream::DenoisedSample> realtime;
-  bool ended = false;
+  bool here = false;   ///< this daemon releases samples of it; else it was only heard
+  bool ended = false;  ///< it did, and the sensor has ended
   [[nodiscard]] bool is_active() const noexcept { return denoised.active() || realtime.active(); }
 };
 using Kind = HeldSamples<stream::DenoisedSample> Sensor::*;
@@ -35,6 +37,7 @@ class Standby::Impl {
   Impl(const Domain& domain, const BusOptions& options, Sink& sink)
       : domain_(domain),
         sink_(sink),
+        signs_(domain),
         rules_{.takeover_s = options.takeover_s, .most = options.output_depth},
         denoised_(domain.participant(), options.topics.denoised_batch,
                   standby_reader_qos(for_topic(options, options.topics.denoised_batch))),
@@ -42,6 +45,9 @@ class Standby::Impl {
     if (options.realtime)
       realtime_.emplace(domain.participant(), options.topics.realtime_batch,
                         standby_reader_qos(for_topic(options, options.topics.realtime_batch)));
+    QosProfile signs_of_life;
+    signs_of_life.lease_s = 0.5 * options.takeover_s;
+    signs_.watch(denoised_.get(), signs_of_life, 0);
     ticker_.emplace(tick_s(options.takeover_s), [this] { tick(); });
   }
 
@@ -52,6 +58,9 @@ class Standby::Impl {
     const double now = steady_now_s();
     heed_a_pause(now);
     auto& [name, state] = sensor_of(sensor);
+    // Beside a stronger one that has begun not one more: readers would drop it.
+    if (state.is_active() && others_.now(now).stronger) listen_all(now);
+    state.here = true;
     state.ended = false;
     (state.*kind).release(samples, now);
     settle(name, state, now);
@@ -61,7 +70,10 @@ class Standby::Impl {
     const std::lock_guard lock(mutex_);
     const auto found = sensors_.find(sensor);
     if (found == sensors_.end()) return sink_.end(sensor);
+    found->second.here = false;
     found->second.ended = true;
+    found->second.denoised.complete();
+    found->second.realtime.complete();
     if (is_over(found->second)) finish(found);
   }
 
@@ -101,9 +113,9 @@ class Standby::Impl {
     const std::lock_guard lock(mutex_);
     const double now = steady_now_s();
     heed_a_pause(now);
+    others_.heed(signs_.take());
     others_.look(denoised_.get(), now);
-    listen(denoised_, &Sensor::denoised, now);
-    if (realtime_) listen(*realtime_, &Sensor::realtime, now);
+    listen_all(now);
     settle_all(now);
     if (std::ranges::any_of(sensors_, [](const auto& sensor) { return sensor.second.is_active(); }))
       sink_.assert_liveliness();
@@ -117,6 +129,11 @@ class Standby::Impl {
     }
   }
 
+  void listen_all(double now_s) {
+    listen(denoised_, &Sensor::denoised, now_s);
+    if (realtime_) listen(*realtime_, &Sensor::realtime, now_s);
+  }
+
   void listen(const TopicReader<gyrod_DenoisedBatch>& reader, Kind kind, double now_s) {
     const auto hear = [&](const gyrod_DenoisedBatch& message, const dds_sample_info_t& info) {
       if (!fits_wire(message.sensor)) return;
@@ -124,14 +141,20 @@ class Standby::Impl {
         const gyrod_DenoisedElement& newest = message.samples._buffer[message.samples._length - 1];
         (sensor_of(message.sensor).second.*kind)
             .hear({newest.sequence_number, newest.stamp_ns}, others_.is_stronger(info.publication_handle));
-      } else if (const auto found = sensors_.find(std::string_view(message.sensor));
-                 found != sensors_.end()) {
-        (found->second.*kind).hear_end(now_s);
-        if (is_over(found->second) && !found->second.is_active()) count_and_erase(found);
       }
+      if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) hear_end(message.sensor, kind, now_s);
     };
     while (reader.take(hear) > 0) {
     }
+  }
+
+  /// The other is gone or silent, or the sensor has ended there. What it published stays known as long as the sensor is here.
+  void hear_end(std::string_view name, Kind kind, double now_s) {
+    const auto found = sensors_.find(name);
+    if (found == sensors_.end()) return;
+    Sensor& sensor = found->second;
+    (sensor.*kind).hear_end(now_s);
+    if (!sensor.here && !sensor.ended && !sensor.is_active()) count_and_erase(found);
   }
 
   Sensors::reference sensor_of(std::string_view name) {
@@ -177,6 +200,7 @@ class Standby::Impl {
 
   Domain domain_;
   Sink& sink_;
+  PromiseWatch signs_;  ///< outlives the reader it listens to
   HoldRules rules_;
   TopicReader<gyrod_DenoisedBatch> denoised_;
   std::optional<TopicReader<gyrod_DenoisedBatch>> realtime_;

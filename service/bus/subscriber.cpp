@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "bus/input_reader.hpp"
@@ -20,6 +21,8 @@ namespace {
 enum Topic : std::size_t { kSingles, kBatches, kTopics };
 /// A topic has two readers at the most.
 constexpr std::size_t kReaders = InputReader<gyrod_GyroSample>::kSides;
+/// Sensors whose last writer is known, the ended ones among them.
+constexpr std::size_t kMostOrigins = 131072;
 static_assert(kTopics * kReaders <= SensorStates::kMaxSources);
 
 /// Hands over at once, or keeps for later.
@@ -29,11 +32,15 @@ class HandOver final : public SampleHandler {
 
   void on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept override {
     if (!keeping_) return handler_.on_samples(sensor, samples);
-    kept_.push_back({std::string(sensor), {samples.begin(), samples.end()}});
+    kept_.push_back({std::string(sensor), Kept::Kind::kSamples, {samples.begin(), samples.end()}});
   }
   void on_end(std::string_view sensor) noexcept override {
     if (!keeping_) return handler_.on_end(sensor);
-    kept_.push_back({std::string(sensor), {}});
+    kept_.push_back({std::string(sensor), Kept::Kind::kEnd, {}});
+  }
+  void on_return(std::string_view sensor) noexcept override {
+    if (!keeping_) return handler_.on_return(sensor);
+    kept_.push_back({std::string(sensor), Kept::Kind::kReturn, {}});
   }
   /// While all that is left is handed over nothing needs to be told of why it ends.
   void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override {
@@ -44,19 +51,19 @@ class HandOver final : public SampleHandler {
   void hand_over_kept() noexcept {
     keeping_ = false;
     for (const Kept& kept : kept_) {
-      if (kept.samples.empty()) {
-        handler_.on_end(kept.sensor);
-      } else {
-        handler_.on_samples(kept.sensor, kept.samples);
-      }
+      if (kept.kind == Kept::Kind::kSamples) handler_.on_samples(kept.sensor, kept.samples);
+      if (kept.kind == Kept::Kind::kEnd) handler_.on_end(kept.sensor);
+      if (kept.kind == Kept::Kind::kReturn) handler_.on_return(kept.sensor);
     }
     kept_.clear();
   }
 
  private:
   struct Kept {
+    enum class Kind { kSamples, kEnd, kReturn };
     std::string sensor;
-    std::vector<stream::Sample> samples;  ///< none: the sensor has ended
+    Kind kind;
+    std::vector<stream::Sample> samples;
   };
 
   SampleHandler& handler_;
@@ -137,6 +144,7 @@ class Subscriber::Impl {
       serve_new_writers();
       heed_broken_promises();
       take();
+      serve_new_writers();  // those that taking has heard of: nothing else may wake this thread for them
     }
   }
 
@@ -235,12 +243,28 @@ class Subscriber::Impl {
     if (sensor.empty() || wire.size() > max_batch_samples_) {
       malformed_.fetch_add(1, std::memory_order_relaxed);
     } else {
+      // What was cached before the writer was lost may come in the same go: it is of another generation.
+      if (info.valid_data && info.view_state == DDS_NEW_VIEW_STATE && info.absolute_generation_rank == 0)
+        heed_beginning(sensor, info.publication_handle);
       run_.add(sensor, wire);
     }
     // The end of a sensor that never sent a sample is no news.
     if (!sensor.empty() && (info.valid_data || states_.knows(sensor))) {
       states_.show(sensor, source, info.instance_state == DDS_ALIVE_INSTANCE_STATE, info.publication_handle);
     }
+  }
+
+  /// Samples of a sensor begin to come: those of a writer that had sent them before it was out of sight come once more.
+  void heed_beginning(std::string_view sensor, dds_instance_handle_t writer) {
+    const auto now = book_.last_sighting(writer);
+    if (!now) return;
+    if (origins_.size() >= kMostOrigins) origins_.clear();  // what they had sent is taken for new
+    WriterBook::Sighting& before = origins_[std::string(sensor)];
+    if (now->is_return_of(before)) {
+      run_.flush();
+      hand_over_.on_return(sensor);
+    }
+    before = *now;
   }
 
   /// A topic showed the sensor as ended: hands over the rest of it, then tells its end unless it came back to
@@ -262,6 +286,8 @@ class Subscriber::Impl {
   SensorStates states_;
   mutable std::mutex topics_mutex_;  ///< for those who only count; the readers go in leave()
   WriterBook book_;
+  std::unordered_map<std::string, WriterBook::Sighting>
+      origins_;  ///< of sensors, also of some that have ended
   PromiseWatch promises_;
   LostWriters lost_writers_;
   std::optional<InputReader<gyrod_GyroSample>> singles_;

@@ -26,6 +26,9 @@ class SampleHandler {
   /// The sensor has ended: its last writer disposed or unregistered it, or went away. Comes after the last of
   /// its samples and at most once until samples come again. @param sensor valid during the call
   virtual void on_end(std::string_view sensor) noexcept = 0;
+  /// The sensor's writer was out of sight, and is back: where it keeps its newest samples for readers that come later, those that were handed
+  /// over come once more, before the others. Comes before its samples.
+  virtual void on_return(std::string_view sensor) noexcept = 0;
   /// Its writer did not keep what it promised (BusOptions::input). @param why kDeadlineMissed, or, after on_end(), kLivelinessLost
   virtual void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept = 0;
 };

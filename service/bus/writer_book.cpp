@@ -34,12 +34,19 @@ std::vector<WriterBook::Writer> WriterBook::take_news() {
 }
 
 bool WriterBook::is_best_effort(dds_instance_handle_t writer) {
-  auto found = best_effort_.find(writer);
-  if (found == best_effort_.end()) {
+  auto found = writers_.find(writer);
+  if (found == writers_.end()) {
     look();
-    found = best_effort_.find(writer);
+    found = writers_.find(writer);
   }
-  return found != best_effort_.end() && found->second;
+  return found != writers_.end() && found->second.best_effort;
+}
+
+std::optional<WriterBook::Sighting> WriterBook::last_sighting(dds_instance_handle_t writer) {
+  look();
+  const auto found = writers_.find(writer);
+  if (found == writers_.end()) return std::nullopt;
+  return found->second.sighting;
 }
 
 /// Takes what discovery has told since the last time. A writer that came and went in between shows as both.
@@ -51,14 +58,16 @@ void WriterBook::look() {
       const dds_sample_info_t& info = loan.info(i);
       if (info.valid_data && std::ranges::count(types_, std::string_view(loan.message(i).type_name)) > 0) {
         const Reliability reliability = reliability_of(loan.message(i).qos);
-        best_effort_[info.instance_handle] = reliability == Reliability::kBestEffort;
+        Entry& entry = writers_[info.instance_handle];
+        entry = {reliability == Reliability::kBestEffort, {.number = ++sightings_}};
+        std::ranges::copy(loan.message(i).key.v, entry.sighting.writer.begin());
         news_.push_back({loan.message(i).topic_name, reliability});
       }
-      if (info.instance_state == DDS_ALIVE_INSTANCE_STATE || !best_effort_.contains(info.instance_handle))
+      if (info.instance_state == DDS_ALIVE_INSTANCE_STATE || !writers_.contains(info.instance_handle))
         continue;
       gone_.push_back(info.instance_handle);
       if (gone_.size() <= kMostGone) continue;
-      best_effort_.erase(gone_.front());
+      writers_.erase(gone_.front());
       gone_.pop_front();
     }
   }

@@ -57,7 +57,11 @@ class Channel {
   std::unique_ptr<NoiseLearner> learner;  ///< may be none
   HealthWatch watch;
 
-  /// Whether the sample was published before this start (EngineOptions::published_before).
+  /// The sensor is not in sight any more, or was not before it came back: what has been seen of it until then. See Engine::come_again().
+  void lose_sight(double now_s) noexcept;
+  /// What had been seen may come once more.
+  void expect_history() noexcept;
+  /// Whether the sample was published before this start (EngineOptions::published_before), or comes once more.
   [[nodiscard]] bool is_history(const Sample& sample) noexcept;
   /// From now on nothing is history.
   void end_history() noexcept { published_before_.reset(); }
@@ -153,6 +157,9 @@ class Channel {
   bool pass_through_ = false;
   double heard_s_ = 0.0;  ///< the intake's alone
   std::atomic<ChannelState> state_{ChannelState::kActive};
+  std::optional<PublishedMark> before_silence_;    ///< the intake's alone
+  std::optional<double> heard_again_s_;            ///< when that silence ended; the intake's alone
+  std::optional<PublishedMark> seen_;              ///< the intake's alone
   std::optional<double> history_until_s_;          ///< the intake's alone
   std::optional<PublishedMark> published_before_;  ///< the intake's alone
   std::optional<ModelOrigin> offered_;

@@ -30,7 +30,7 @@ enum class RejectReason : std::uint8_t {
   kTooManyChannels,  ///< a new sensor id beyond the channel limit, or beyond the memory there is
   kBadSensorId,      ///< empty, too long, or not printable
   kShuttingDown,     ///< arrived after the stop began
-  kHistory,          ///< was published before this start: it fills the window and is not published again
+  kHistory,  ///< was published before this start, or before its sensor was out of sight: it fills the window and is not published again
 };
 inline constexpr std::size_t kRejectReasons = 9;
 

@@ -217,6 +217,7 @@ std::size_t Engine::push(std::string_view sensor, std::span<const Sample> sample
   return impl_->push(sensor, samples);
 }
 void Engine::end_of_stream(std::string_view sensor) noexcept { impl_->end_of_stream(sensor); }
+void Engine::come_again(std::string_view sensor) noexcept { impl_->come_again(sensor); }
 void Engine::fall_silent(std::string_view sensor, ChannelState why) noexcept {
   impl_->fall_silent(sensor, why);
 }

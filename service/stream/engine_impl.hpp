@@ -28,6 +28,7 @@ class Engine::Impl {
 
   std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
   void end_of_stream(std::string_view sensor) noexcept;
+  void come_again(std::string_view sensor) noexcept;
   void fall_silent(std::string_view sensor, ChannelState why) noexcept;
   void tend() noexcept;
   void judge_health();

@@ -135,6 +135,7 @@ void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
   Channel* channel = registry_.find(sensor);
   if (channel == nullptr || stopping_ || !channel->gate.is_open()) return;
   close_segment(*channel, true);
+  channel->lose_sight(clock_());
   channel->gate.reopen();
   channel->end_history();
   channel->asleep = false;
@@ -145,6 +146,18 @@ void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
   if (!channel->fast_loop) return;
   // A worker tells the end; the fast loop must not release samples of the next stream before that.
   wait_while(*channel, [channel] { return channel->oldest_submission().has_value(); });
+}
+
+void Engine::Impl::come_again(std::string_view sensor) noexcept {
+  Channel* channel = registry_.find(sensor);
+  if (channel == nullptr || stopping_) return;
+  if (channel->gate.is_open()) {
+    close_segment(*channel, false);
+    channel->lose_sight(clock_());
+    channel->gate.reopen();
+    listen_again();
+  }
+  channel->expect_history();
 }
 
 void Engine::Impl::tend() noexcept {

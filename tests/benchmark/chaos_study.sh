@@ -20,7 +20,7 @@ trap 'rm -f "$log"' EXIT
 failed=0
 for ((seed = first; seed < first + runs; ++seed)); do
   if ! GYROD_CHAOS_SEED=$seed GYROD_CHAOS_SECONDS=$seconds \
-    "$folder/tests/integration/chaos_test" --gtest_filter="$filter" > "$log" 2>&1; then
+    "$folder/chaos_test" --gtest_filter="$filter" > "$log" 2>&1; then
     failed=$((failed + 1))
     cat "$log"
   fi

@@ -254,7 +254,7 @@ TEST_P(ChaosPair, NothingIsMissingWhicheverOfTheTwoIsStruck) {
 
 INSTANTIATE_TEST_SUITE_P(Method, ChaosAlone, ::testing::Values("joint", "paper"),
                          [](const auto& method) { return std::string(method.param); });
-INSTANTIATE_TEST_SUITE_P(Method, ChaosPair, ::testing::Values("joint"),
+INSTANTIATE_TEST_SUITE_P(Method, ChaosPair, ::testing::Values("joint", "paper"),
                          [](const auto& method) { return std::string(method.param); });
 
 }  // namespace

@@ -1,4 +1,5 @@
 // A daemon is killed in the middle of its work and started again.
+#include <algorithm>
 #include <csignal>
 #include <string>
 
@@ -68,7 +69,7 @@ TEST_F(Restart, KilledAtAnyMomentItGoesOnWhereItWasWithFullWindowsIfTheSensorKee
     ASSERT_TRUE(eventually([&] { return history(*daemon) > 0.0; }));
   }
   ASSERT_TRUE(has_published(*daemon, 500.0));
-  EXPECT_THAT(daemon->err(), HasSubstr("that were published before this start fill windows"));
+  EXPECT_THAT(daemon->err(), HasSubstr("that were published before fill windows"));
   // The sensor would wait for the killed readers' leases before it ends.
   EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();
   sensor->signal(SIGKILL);
@@ -110,6 +111,31 @@ TEST_F(Restart, WithoutHistoryItWarmsUpAndOnlyWhatWasInFlightAndWhatWasSentMeanw
                                  [](const auto& a, const auto& b) { return b.sequence != a.sequence + 1; }),
       samples.end())
       << "one hole";
+}
+
+// To DDS it is a new reader then, and gets all that the sensor keeps once more.
+TEST_F(Restart, PausedForLongerThanTheLeaseItPublishesNothingFromBeforeAgainAndTakesTheRest) {
+  const auto daemon = start_with_history();
+  const Arrivals output = arrivals();
+  const auto sensor = start_sensor("5000");
+  ASSERT_TRUE(has_published(*daemon, 1000.0));
+  daemon->signal(SIGSTOP);
+  ASSERT_TRUE(eventually([&] { return output.writers() == 0; })) << "its lease ends for the sensor, too";
+  const std::uint64_t seen = output.samples().back().sequence;
+  daemon->signal(SIGCONT);
+  ASSERT_TRUE(output.more_arrive(1000));
+  EXPECT_TRUE(eventually([&] { return is_balanced(*daemon); }));
+  EXPECT_EQ(of(*daemon, "gyrod_samples_missing_total"), 0.0);
+  sensor->signal(SIGINT);
+  sensor->wait();
+  EXPECT_EQ(stop_daemon(*daemon), 0) << daemon->err();
+  constexpr std::uint64_t kLag = 16;  // left when the sensor was found to be lost, perhaps to nobody
+  EXPECT_LE(output.missing(), kLag) << output.jumps();
+  // What waited during the pause may come twice, where the reader is found before the sensor is lost.
+  const auto samples = output.samples();
+  EXPECT_EQ(std::ranges::count_if(samples, [seen](const auto& one) { return one.sequence <= seen; }),
+            static_cast<std::ptrdiff_t>(seen) + 1)
+      << output.jumps();
 }
 
 TEST_F(Restart, AnEndedSensorThatIsSentAgainIsPublishedAgain) {

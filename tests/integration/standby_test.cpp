@@ -97,5 +97,36 @@ TEST_F(Standby, StandsInForOneThatIsStoppedForAWhileAndNothingIsMissing) {
   end_without_loss(output, *sensor);
 }
 
+// Under method paper a daemon releases a hop at a time, of a slow sensor every 0.4 s, and those of one that came later end at other samples:
+// what one has released the other may have in its window still.
+TEST_F(Standby, MissesNothingOfASlowSensorWhoseHopsDifferWhenTheOtherIsKilledAndComesBack) {
+  constexpr int kRounds = 3;
+  write_loopback("network.xml", 2);  // the sensor waits for a killed daemon until then
+  options_.method = "paper";
+  options_.patch = R"({"bus": {"network": "network.xml"}})";
+  start_two();
+  bus::BusOptions exclusive;
+  exclusive.ownership_strength = 1;
+  const Arrivals output(bus::Domain(domain_id(), path("network.xml")), exclusive, "gyro/denoised", "slow");
+  ASSERT_TRUE(eventually([&] { return output.writers() == 2; }));
+  const auto sensor = start_on_bus({"simulate", "--sensor", "slow", "--rate", "77", "--wait", "60"});
+  for (int round = 0; round < kRounds; ++round) {
+    ASSERT_TRUE(eventually([&] { return publishes(*first_, 1.0) && publishes(*second_, 0.0); }));
+    // The kill comes with a hop of the first, and the second holds since its own.
+    ASSERT_TRUE(output.more_arrive(40));
+    first_->signal(SIGKILL);
+    first_->wait();
+    ASSERT_TRUE(eventually([&] { return publishes(*second_, 1.0); }));
+    first_ = start_one(kFirst);
+  }
+  ASSERT_TRUE(eventually([&] { return publishes(*first_, 1.0) && publishes(*second_, 0.0); }));
+  ASSERT_TRUE(output.more_arrive(40));
+  EXPECT_EQ(output.missing(), 0U) << output.jumps();
+  EXPECT_EQ(output.samples().front().sequence, 0U);
+  EXPECT_EQ(stop_daemon(*first_), 0) << first_->err();
+  EXPECT_EQ(stop_daemon(*second_), 0) << second_->err();
+  sensor->signal(SIGKILL);
+}
+
 }  // namespace
 }  // namespace gyrod::testing

@@ -116,6 +116,16 @@ class Collector {
     changed_.notify_all();
   }
 
+  void come_again(std::string_view sensor) {
+    const std::lock_guard lock(mutex_);
+    returns_.emplace_back(sensor, samples_[std::string(sensor)].size());
+  }
+  /// The sensors that came back, and how many of their samples had come before.
+  [[nodiscard]] std::vector<std::pair<std::string, std::size_t>> returns() {
+    const std::lock_guard lock(mutex_);
+    return returns_;
+  }
+
   void break_promise(std::string_view sensor, stream::ChannelState why) {
     const std::lock_guard lock(mutex_);
     broken_promises_.emplace_back(sensor, why);
@@ -165,6 +175,7 @@ class Collector {
   std::size_t count_ = 0;
   std::map<std::string, std::vector<Sample>> samples_;
   std::vector<std::pair<std::string, std::size_t>> ends_;
+  std::vector<std::pair<std::string, std::size_t>> returns_;
   std::vector<std::pair<std::string, stream::ChannelState>> broken_promises_;
 };
 
@@ -174,6 +185,7 @@ class SampleCollector : public SampleHandler, public Collector<stream::Sample> {
     add(sensor, samples);
   }
   void on_end(std::string_view sensor) noexcept override { end(sensor); }
+  void on_return(std::string_view sensor) noexcept override { come_again(sensor); }
   void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override {
     break_promise(sensor, why);
   }

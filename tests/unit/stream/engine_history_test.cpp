@@ -81,6 +81,61 @@ TEST_P(EngineWithHistory, TakesNothingForHistoryThatComesLongAfterTheSensorsFirs
   EXPECT_EQ(engine.push("imu", counting_samples(10, 20)), 10U);
 }
 
+/// A clock that a test sets.
+class EngineThatLosesSight : public EngineWithHistory {
+ protected:
+  static std::uint64_t history_in(const Counts& counts) {
+    return counts.rejected[static_cast<std::size_t>(RejectReason::kHistory)];
+  }
+  double now_s_ = 100.0;
+  RecordingSink sink_;
+  Engine engine_{small_options(0), method(), sink_, [this] { return now_s_; }};
+};
+INSTANTIATE_TEST_SUITE_P(Methods, EngineThatLosesSight, ::testing::Values(0, 1));
+
+TEST_P(EngineThatLosesSight, PublishesOnceWhatASensorSendsTwiceThatComesBack) {
+  engine_.push("imu", counting_samples(100));
+  now_s_ += 10.0;
+  engine_.end_of_stream("imu");
+  now_s_ += 1.0;
+  engine_.come_again("imu");
+  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 50U) << "50 had not been taken";
+  engine_.stop(std::chrono::seconds{60});
+  EXPECT_EQ(history_in(engine_.snapshot().totals), 100U);
+  EXPECT_EQ(engine_.snapshot().totals.missing, 0U);
+  EXPECT_EQ(sink_.samples("imu").size(), 150U);
+  expect_conserved(engine_.snapshot().totals);
+}
+
+TEST_P(EngineThatLosesSight, PublishesAgainWhatHadWaitedDuringAPauseAndCountsWhatNobodyKept) {
+  engine_.push("imu", counting_samples(100));
+  const std::uint64_t published = engine_.snapshot().totals.published;
+  ASSERT_GT(published, 60U);
+  now_s_ += 10.0;  // the pause; readers are lost, too
+  engine_.push("imu", counting_samples(20, 100));
+  now_s_ += 0.1;
+  engine_.end_of_stream("imu");
+  now_s_ += 1.0;
+  engine_.come_again("imu");
+  EXPECT_EQ(engine_.push("imu", counting_samples(90, 60)), 150U - published);
+  EXPECT_EQ(history_in(engine_.snapshot().totals), published - 60U);
+
+  now_s_ += 10.0;
+  engine_.end_of_stream("imu");
+  engine_.come_again("imu");
+  EXPECT_EQ(engine_.push("imu", counting_samples(10, 153)), 10U);
+  EXPECT_EQ(engine_.snapshot().totals.missing, 3U);
+  expect_conserved(engine_.snapshot().totals);
+}
+
+TEST_P(EngineThatLosesSight, TakesASensorThatSendsOnWithoutAnEndForTheSame) {
+  engine_.push("imu", counting_samples(100));
+  engine_.come_again("imu");
+  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 50U);
+  engine_.come_again("unknown");
+  expect_conserved(engine_.snapshot().totals);
+}
+
 TEST(EngineHistory, OfASensorThatDoesNotCountIsToldByItsStamps) {
   RecordingSink sink;
   std::vector<Sample> samples = counting_samples(100);
