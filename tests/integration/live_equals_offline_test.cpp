@@ -9,19 +9,13 @@
 
 #include "app/exit_code.hpp"
 #include "rig.hpp"
+#include "support/slow_build.hpp"
 
 namespace gyrod::testing {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSlowBuild = true;
-const std::vector<std::size_t> kWorkers = {1, 4};
-const std::vector<std::size_t> kBatches = {7};
-#else
-constexpr bool kSlowBuild = false;
-const std::vector<std::size_t> kWorkers = {1, 2, 4};
-const std::vector<std::size_t> kBatches = {1, 7, 64};
-#endif
+const auto kWorkers = kSlowBuild ? std::vector<std::size_t>{1, 4} : std::vector<std::size_t>{1, 2, 4};
+const auto kBatches = kSlowBuild ? std::vector<std::size_t>{7} : std::vector<std::size_t>{1, 7, 64};
 
 const std::vector<std::string> kRates = {"gyro_x_radps", "gyro_y_radps", "gyro_z_radps"};
 
