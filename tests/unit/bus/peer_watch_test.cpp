@@ -37,6 +37,7 @@ std::uint32_t wire() { return 220 + static_cast<std::uint32_t>(getpid()) % 11; }
 struct Ignore final : SampleHandler {
   void on_samples(std::string_view, std::span<const stream::Sample>) noexcept override {}
   void on_end(std::string_view) noexcept override {}
+  void on_return(std::string_view) noexcept override {}
   void on_broken_promise(std::string_view, stream::ChannelState) noexcept override {}
 };
 
