@@ -14,14 +14,6 @@ HopSchedule::Options schedule_options(const EngineOptions& options) {
           .lag = static_cast<Position>(options.lag_samples)};
 }
 
-/// What a sensor keeps comes at once when it is found. A sensor that began anew with number and clock while nobody looked seems to send
-/// history, too; it is not taken for that any longer.
-constexpr double kLongestHistory_s = 10.0;
-/// A sensor that was not heard for so long may have been out of sight: DDS's leases are longer.
-constexpr double kOutOfSight_s = 1.0;
-/// A process that goes on after a pause takes what has waited, and is told within this time whom it has lost meanwhile.
-constexpr double kJustHeard_s = 5.0;
-
 }  // namespace
 
 std::size_t most_held_samples(const EngineOptions& options) noexcept {
@@ -62,37 +54,10 @@ void Channel::take_block(const RestEvidence& rest) {
   bias_s_ = rest.bias_s;
 }
 
-void Channel::lose_sight(double now_s) noexcept {
-  const bool just_heard = heard_again_s_ && now_s - *heard_again_s_ <= kJustHeard_s;
-  seen_ = just_heard ? before_silence_ : gate.last();
-}
-
-void Channel::expect_history() noexcept {
-  published_before_ = seen_;
-  history_until_s_.reset();
-}
-
-bool Channel::is_history(const Sample& sample) noexcept {
-  if (!published_before_) return false;
-  const bool known =
-      sample.sequence <= published_before_->sequence && sample.stamp_ns <= published_before_->stamp_ns;
-  if (!known) end_history();
-  return known;
-}
-
 void Channel::hear(double now_s) {
   watch.hear(now_s, gate.rate_hz());
-  if (auto newest = gate.last(); newest && now_s - heard_s_ >= kOutOfSight_s) {
-    // What is held leaves only now.
-    newest->sequence -= std::min(counts().in_flight, newest->sequence);
-    before_silence_ = newest;
-    heard_again_s_ = now_s;
-  }
+  look_for_history(now_s);
   heard_s_ = now_s;
-  if (published_before_) {
-    if (!history_until_s_) history_until_s_ = now_s + kLongestHistory_s;
-    if (now_s > *history_until_s_) end_history();
-  }
   if (state_ != ChannelState::kActive) state_ = ChannelState::kActive;
 }
 

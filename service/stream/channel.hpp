@@ -141,6 +141,7 @@ class Channel {
 
  private:
   void take_block(const RestEvidence& rest);
+  void look_for_history(double now_s);
   /// The channel has work, no owner and no place in the scheduler's queue: takes the place.
   [[nodiscard]] bool must_schedule();
 

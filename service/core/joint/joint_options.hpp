@@ -74,7 +74,7 @@ struct JointOptions {
   /// Rate of the slow correction, per sample: it takes what the models miss of slow motion. Range 0..1.
   double correction_rate = 0.006;
   /// The same where the estimate trusts the samples: at least this much of the estimate's variance over the noise's. Range 0..1.
-  double correction_share = 0.04;
+  double correction_share = 0.05;
 };
 
 /// Which options hold for a sample rate and a window. Those that mean a time keep it at rates above the design's, those that a short window

@@ -1,0 +1,50 @@
+// What a sensor keeps and sends once more: what has left already fills the window and does not leave again.
+#include <algorithm>
+
+#include "stream/channel.hpp"
+
+namespace gyrod::stream {
+namespace {
+
+/// What a sensor keeps comes at once when it is found. A sensor that began anew with number and clock while nobody looked seems to send
+/// history, too; it is not taken for that any longer.
+constexpr double kLongestHistory_s = 10.0;
+/// A sensor that was not heard for so long may have been out of sight: DDS's leases are longer.
+constexpr double kOutOfSight_s = 1.0;
+/// A process that goes on after a pause takes what has waited, and is told within this time whom it has lost meanwhile.
+constexpr double kJustHeard_s = 5.0;
+
+}  // namespace
+
+void Channel::lose_sight(double now_s) noexcept {
+  const bool just_heard = heard_again_s_ && now_s - *heard_again_s_ <= kJustHeard_s;
+  seen_ = just_heard ? before_silence_ : gate.last();
+}
+
+void Channel::expect_history() noexcept {
+  published_before_ = seen_;
+  history_until_s_.reset();
+}
+
+bool Channel::is_history(const Sample& sample) noexcept {
+  if (!published_before_) return false;
+  const bool known =
+      sample.sequence <= published_before_->sequence && sample.stamp_ns <= published_before_->stamp_ns;
+  if (!known) end_history();
+  return known;
+}
+
+/// Before the channel is heard at now_s.
+void Channel::look_for_history(double now_s) {
+  if (auto newest = gate.last(); newest && now_s - heard_s_ >= kOutOfSight_s) {
+    // What is held leaves only now.
+    newest->sequence -= std::min(counts().in_flight, newest->sequence);
+    before_silence_ = newest;
+    heard_again_s_ = now_s;
+  }
+  if (!published_before_) return;
+  if (!history_until_s_) history_until_s_ = now_s + kLongestHistory_s;
+  if (now_s > *history_until_s_) end_history();
+}
+
+}  // namespace gyrod::stream
