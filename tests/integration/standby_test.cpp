@@ -7,6 +7,7 @@
 #include "standby_pair.hpp"
 #include "support/arrivals.hpp"
 #include "support/eventually.hpp"
+#include "support/slow_build.hpp"
 
 namespace gyrod::testing {
 namespace {
@@ -55,9 +56,9 @@ TEST_F(Standby, GoesOnWithTheSampleThatWouldHaveComeNextAndWithTheSameBitsWhenTh
   EXPECT_EQ(output.samples().front().sequence, 0U);
   RecordProperty("longest_pause_ms", static_cast<int>(1000.0 * output.longest_pause_s()));
   EXPECT_GE(output.longest_pause_s(), 0.25);
-  // On a machine that is so slow that the first looked dead before, there are more.
+  // On a machine that is so slow that the first looked dead before, also before anything was heard of it, there are more.
   ASSERT_GE(of(*second_, "gyrod_standby_takeovers_total"), 1.0);
-  if (of(*second_, "gyrod_standby_takeovers_total") == 1.0) {
+  if (!kSlowBuild && of(*second_, "gyrod_standby_takeovers_total") == 1.0) {
     EXPECT_LE(output.duplicates(), 2U) << "sent by the first and not heard by the second before the end";
   }
 
