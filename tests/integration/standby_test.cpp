@@ -14,6 +14,8 @@ namespace {
 
 class Standby : public StandbyPair {
  protected:
+  /// A build that is slow keeps a daemon waiting for half a second.
+  Standby() { takeover_s_ = kSlowBuild ? 1.0 : 0.5; }
   [[nodiscard]] Arrivals arrivals() const {
     bus::BusOptions options;
     options.ownership_strength = 1;
