@@ -57,7 +57,10 @@ class Channel {
   std::unique_ptr<NoiseLearner> learner;  ///< may be none
   HealthWatch watch;
 
-  /// The sensor is not in sight any more, or was not before it came back: what has been seen of it until then. See Engine::come_again().
+  /// Nothing comes: what leaves from now on leaves, perhaps, to nobody. Before the segment is closed.
+  void note_silence() noexcept;
+  /// The sensor is not in sight any more, or was not before it came back: what had left until then. See Engine::come_again(). Before the
+  /// segment is closed.
   void lose_sight(double now_s) noexcept;
   /// What had been seen may come once more.
   void expect_history() noexcept;
@@ -142,6 +145,7 @@ class Channel {
  private:
   void take_block(const RestEvidence& rest);
   void look_for_history(double now_s);
+  [[nodiscard]] std::optional<PublishedMark> last_published() const noexcept;
   /// The channel has work, no owner and no place in the scheduler's queue: takes the place.
   [[nodiscard]] bool must_schedule();
 

@@ -16,9 +16,27 @@ constexpr double kJustHeard_s = 5.0;
 
 }  // namespace
 
+void Channel::note_silence() noexcept {
+  if (!asleep) before_silence_ = last_published();
+}
+
 void Channel::lose_sight(double now_s) noexcept {
   const bool just_heard = heard_again_s_ && now_s - *heard_again_s_ <= kJustHeard_s;
-  seen_ = just_heard ? before_silence_ : gate.last();
+  seen_ = asleep || just_heard ? before_silence_ : last_published();
+}
+
+/// The newest sample that has left, or that need not leave. What a worker is about to send counts as held.
+std::optional<PublishedMark> Channel::last_published() const noexcept {
+  std::uint64_t held = counts().in_flight;
+  const Position oldest = std::max(Position{0}, ring.end() - static_cast<Position>(ring.capacity()));
+  for (Position position = ring.end() - 1; position >= oldest; --position) {
+    if (held == 0) {
+      const Sample sample = ring.at(position);
+      return PublishedMark{sample.sequence, sample.stamp_ns};
+    }
+    if (ring.released(position)) --held;
+  }
+  return std::nullopt;
 }
 
 void Channel::expect_history() noexcept {
@@ -36,10 +54,8 @@ bool Channel::is_history(const Sample& sample) noexcept {
 
 /// Before the channel is heard at now_s.
 void Channel::look_for_history(double now_s) {
-  if (auto newest = gate.last(); newest && now_s - heard_s_ >= kOutOfSight_s) {
-    // What is held leaves only now.
-    newest->sequence -= std::min(counts().in_flight, newest->sequence);
-    before_silence_ = newest;
+  if (ring.end() > 0 && now_s - heard_s_ >= kOutOfSight_s) {
+    note_silence();  // what is held leaves only now
     heard_again_s_ = now_s;
   }
   if (!published_before_) return;

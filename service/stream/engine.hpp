@@ -116,9 +116,10 @@ class Engine {
   /// channel and its counts stay, and a later sample opens a new window.
   void end_of_stream(std::string_view sensor) noexcept;
 
-  /// The sensor was out of sight and is back, and may send once more what was taken of it, before the rest: that fills the window and does
-  /// not leave again, as with EngineOptions::published_before. Where it has not ended, its window is closed first. What had waited to be
-  /// taken while this process stood still, and was taken before the sensor was lost, leaves again: readers may have been lost with it.
+  /// The sensor was out of sight and is back, and may send once more what was taken of it, before the rest: what had left before it fell
+  /// silent fills the window and does not leave again, as with EngineOptions::published_before. Where it has not ended, its window is
+  /// closed first. What left later leaves again, as readers may have been lost with the sensor: what the window held, and what had waited
+  /// to be taken while this process stood still.
   void come_again(std::string_view sensor) noexcept;
 
   /// The bus tells that the sensor does not send though it should: what tend() does of a silent sensor, at once. Where it has ended, only

@@ -134,8 +134,8 @@ void Engine::Impl::listen_again() {
 void Engine::Impl::end_of_stream(std::string_view sensor) noexcept {
   Channel* channel = registry_.find(sensor);
   if (channel == nullptr || stopping_ || !channel->gate.is_open()) return;
-  close_segment(*channel, true);
   channel->lose_sight(clock_());
+  close_segment(*channel, true);
   channel->gate.reopen();
   channel->end_history();
   channel->asleep = false;
@@ -152,8 +152,8 @@ void Engine::Impl::come_again(std::string_view sensor) noexcept {
   Channel* channel = registry_.find(sensor);
   if (channel == nullptr || stopping_) return;
   if (channel->gate.is_open()) {
-    close_segment(*channel, false);
     channel->lose_sight(clock_());
+    close_segment(*channel, false);
     channel->gate.reopen();
     listen_again();
   }
@@ -184,6 +184,7 @@ void Engine::Impl::fall_silent(std::string_view sensor, ChannelState why) noexce
 
 /// The gate stays open: it tells what was missing when the sensor is back.
 void Engine::Impl::fall_silent(Channel& channel, ChannelState why) {
+  channel.note_silence();
   close_segment(channel, false);
   channel.asleep = true;
   channel.gate.expect_restart();

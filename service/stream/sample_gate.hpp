@@ -62,10 +62,6 @@ class SampleGate {
 
   /// True once a sample was accepted since the beginning or since reopen().
   [[nodiscard]] bool is_open() const noexcept { return open_; }
-  /// The newest sample that was accepted, also before reopen(); none before the first.
-  [[nodiscard]] std::optional<PublishedMark> last() const noexcept {
-    return ever_open_ ? std::optional(PublishedMark{last_sequence_, last_stamp_ns_}) : std::nullopt;
-  }
   /// Sample rate in Hz, 0 while unknown.
   [[nodiscard]] double rate_hz() const noexcept { return period_.rate_hz(); }
 

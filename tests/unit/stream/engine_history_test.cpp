@@ -93,18 +93,62 @@ class EngineThatLosesSight : public EngineWithHistory {
 };
 INSTANTIATE_TEST_SUITE_P(Methods, EngineThatLosesSight, ::testing::Values(0, 1));
 
-TEST_P(EngineThatLosesSight, PublishesOnceWhatASensorSendsTwiceThatComesBack) {
+TEST_P(EngineThatLosesSight, PublishesAgainOnlyWhatTheWindowHeldOfASensorThatComesBack) {
   engine_.push("imu", counting_samples(100));
+  const std::uint64_t published = engine_.snapshot().totals.published;
+  ASSERT_GT(published, 60U);
+  ASSERT_LT(published, 100U);
   now_s_ += 10.0;
   engine_.end_of_stream("imu");
   now_s_ += 1.0;
   engine_.come_again("imu");
-  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 50U) << "50 had not been taken";
+  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 150U - published);
   engine_.stop(std::chrono::seconds{60});
-  EXPECT_EQ(history_in(engine_.snapshot().totals), 100U);
+  EXPECT_EQ(history_in(engine_.snapshot().totals), published);
   EXPECT_EQ(engine_.snapshot().totals.missing, 0U);
-  EXPECT_EQ(sink_.samples("imu").size(), 150U);
+  EXPECT_EQ(sink_.samples("imu").size(), 100U + 150U - published);
   expect_conserved(engine_.snapshot().totals);
+}
+
+// Silence empties the window long before the sensor is known to be lost.
+TEST_P(EngineThatLosesSight, PublishesAgainWhatLeftWhenASensorFellSilentBeforeItWasLost) {
+  engine_.push("imu", counting_samples(100));
+  const std::uint64_t published = engine_.snapshot().totals.published;
+  engine_.fall_silent("imu", ChannelState::kSilent);
+  ASSERT_EQ(engine_.snapshot().totals.published, 100U);
+  now_s_ += 10.0;
+  engine_.end_of_stream("imu");
+  engine_.come_again("imu");
+  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 150U - published);
+  expect_conserved(engine_.snapshot().totals);
+}
+
+// One that was heard again for long had its readers back.
+TEST_P(EngineThatLosesSight, ForgetsASilenceThatIsLongOver) {
+  engine_.push("imu", counting_samples(100));
+  engine_.fall_silent("imu", ChannelState::kSilent);
+  now_s_ += 2.0;
+  engine_.push("imu", counting_samples(50, 100));
+  now_s_ += 0.9;
+  engine_.push("imu", counting_samples(50, 150));
+  const std::uint64_t published = engine_.snapshot().totals.published;
+  ASSERT_GT(published, 150U);
+  now_s_ += 5.0;
+  engine_.end_of_stream("imu");
+  engine_.come_again("imu");
+  EXPECT_EQ(engine_.push("imu", counting_samples(200)), 200U - published);
+}
+
+// Numbers that are missing are not among those that the window holds.
+TEST_P(EngineThatLosesSight, CountsWhatTheWindowHeldBySamplesNotByNumbers) {
+  std::vector<Sample> samples = counting_samples(120);
+  std::erase_if(samples, [](const Sample& sample) { return sample.sequence >= 95 && sample.sequence < 98; });
+  engine_.push("imu", samples);
+  const std::uint64_t published = engine_.snapshot().totals.published;
+  const std::uint64_t newest = sink_.samples("imu").back().sequence;
+  engine_.end_of_stream("imu");
+  engine_.come_again("imu");
+  EXPECT_EQ(engine_.push("imu", samples), samples.size() - published) << "newest published: " << newest;
 }
 
 TEST_P(EngineThatLosesSight, PublishesAgainWhatHadWaitedDuringAPauseAndCountsWhatNobodyKept) {
@@ -130,8 +174,9 @@ TEST_P(EngineThatLosesSight, PublishesAgainWhatHadWaitedDuringAPauseAndCountsWha
 
 TEST_P(EngineThatLosesSight, TakesASensorThatSendsOnWithoutAnEndForTheSame) {
   engine_.push("imu", counting_samples(100));
+  const std::uint64_t published = engine_.snapshot().totals.published;
   engine_.come_again("imu");
-  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 50U);
+  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 150U - published);
   engine_.come_again("unknown");
   expect_conserved(engine_.snapshot().totals);
 }
