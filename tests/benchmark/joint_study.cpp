@@ -26,6 +26,7 @@
 #include "core/noise/standstill_learner.hpp"
 #include "core/noise/still_noise.hpp"
 #include "support/drive_rows.hpp"
+#include "support/slow_gain.hpp"
 
 namespace {
 
@@ -151,6 +152,9 @@ core::JointOptions options_of(const Arguments& arguments) {
   set("hand_over_samples", options.hand_over_samples);
   set("correction_rate", options.correction_rate);
   set("correction_share", options.correction_share);
+  set("steady_correction", options.steady_correction);
+  set("most_steady_correction", options.most_steady_correction);
+  set("steady_memory", options.steady_memory);
   set("variance_factor", options.variance_factor);
   return options;
 }
@@ -160,6 +164,7 @@ struct Figures {
   double normalised_error = 0.0;  ///< mean of error^2 / published variance, lag 16
   double innovation = 0.0;        ///< mean of nu^2 / S
   double alarm = 0.0;             ///< part of the windows whose noise is said to be wrong
+  std::array<double, 2> gain{};   ///< of slow motion, as the guard scale-factor has it, lag 0 and 16
 };
 
 Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Arguments& arguments) {
@@ -175,6 +180,7 @@ Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Argu
   const auto begin = static_cast<std::size_t>(20.0 * row.rate_hz);
   const std::size_t end = std::min(static_cast<std::size_t>(80.0 * row.rate_hz), row.noisy_dps.size() - 32);
   Figures figures;
+  std::array<test::SlowGain, 2> gains{test::SlowGain(row.rate_hz), test::SlowGain(row.rate_hz)};
   double windows = 0.0;
   std::size_t judged = 0;
   for (std::size_t t = 0; t < end + 32; ++t) {
@@ -193,6 +199,10 @@ Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Argu
       if (t < begin + kLags[i] || t >= end + kLags[i]) continue;
       const double error = estimate.rate - row.truth_dps[t - kLags[i]];
       if (std::isnan(error)) continue;
+      if (kLags[i] == 0 || kLags[i] == 16) {
+        const std::size_t then = t - kLags[i];
+        gains[kLags[i] / 16].add(row.truth_dps[then], estimate.rate - row.noisy_dps[then]);
+      }
       if (kLags[i] == 16) ++judged;
       figures.rmse[i] += error * error;
       if (kLags[i] == 16) figures.normalised_error += error * error / estimate.variance;
@@ -204,6 +214,7 @@ Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Argu
   figures.normalised_error /= count;
   figures.innovation /= count;
   figures.alarm /= windows;
+  figures.gain = {gains[0].value(), gains[1].value()};
   return figures;
 }
 
@@ -227,7 +238,7 @@ void print(const char* what, const std::array<double, kLags.size()>& values) {
 
 int study(const Arguments& arguments) {
   std::printf("%-12s %41s", "row", "RMSE at lag 0, 4, 8, 12, 16, 32");
-  std::printf(" | of Butterworth's | of the prototype's 0, 8, 16 | NEE, NIS, alarm\n");
+  std::printf(" | of Butterworth's | of the prototype's 0, 8, 16 | NEE, NIS, alarm | slow gain 0, 16\n");
   const bool rivals = number(arguments, "rivals", 1) != 0.0;
   double worst_rival = 0.0;
   double worst_prototype = 0.0;
@@ -259,7 +270,8 @@ int study(const Arguments& arguments) {
       ++cells;
       std::printf(" %5.3f", ratio);
     }
-    std::printf(" | %4.2f %4.2f %4.2f\n", figures.normalised_error, figures.innovation, figures.alarm);
+    std::printf(" | %4.2f %4.2f %4.2f | %5.3f %5.3f\n", figures.normalised_error, figures.innovation,
+                figures.alarm, figures.gain[0], figures.gain[1]);
     std::fflush(stdout);
   }
   std::printf("worst of Butterworth's %.3f, of the prototype's %.3f; geometric mean of the latter %.4f\n",

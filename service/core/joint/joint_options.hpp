@@ -74,7 +74,14 @@ struct JointOptions {
   /// Rate of the slow correction, per sample: it takes what the models miss of slow motion. Range 0..1.
   double correction_rate = 0.006;
   /// The same where the estimate trusts the samples: at least this much of the estimate's variance over the noise's. Range 0..1.
-  double correction_share = 0.05;
+  double correction_share = 0.04;
+  /// The same where that has been so for long, as on a road that shakes: this much of the square of that ratio's least of late, up to
+  /// most_steady_correction. Motion as small as the noise is weighed against it and shrinks; here it can be given back at little cost.
+  /// Range 0..10; 0..1.
+  double steady_correction = 1.0;
+  double most_steady_correction = 0.05;
+  /// Samples in which a least ratio that is over is forgotten. Range 1..1e9.
+  double steady_memory = 512.0;
 };
 
 /// Which options hold for a sample rate and a window. Those that mean a time keep it at rates above the design's, those that a short window
@@ -96,6 +103,8 @@ class JointScale {
   /// shrinkage * shorter, at most 0.1: the less a window tells, the more the prior does.
   [[nodiscard]] double shrinkage(double shrinkage) const noexcept;
 
+  /// samples * faster: the same seconds.
+  [[nodiscard]] double steady_memory(double samples) const noexcept { return samples * faster_; }
   /// rate * fewer / faster, at most 0.1: the same seconds; and it makes up for the window's mean, which wanders faster in a shorter window.
   [[nodiscard]] double correction_rate(double rate) const noexcept;
 

@@ -15,9 +15,6 @@ constexpr std::array<double, 3> kStartRatios = {1e-4, 0.02, 1.0};
 /// Most that one sample says against a member, nu^2 / S: a million deviations.
 constexpr double kMostSurprise = 1e12;
 
-/// Largest rate of the slow correction that a large variance asks for: ten samples.
-constexpr double kMostCorrection = 0.1;
-
 /// Whether one of the members can answer.
 bool has_member(const JointModel& model) noexcept {
   return std::ranges::any_of(model.members, &MemberModel::usable);
@@ -102,10 +99,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
 }
 
 /// What the model's rate and window make of the options.
-void KalmanBank::scale() noexcept {
-  switching_rate_ = model_.scale.switching_rate(options_.switching_rate);
-  correction_rate_ = model_.scale.correction_rate(options_.correction_rate);
-}
+void KalmanBank::scale() noexcept { switching_rate_ = model_.scale.switching_rate(options_.switching_rate); }
 
 BankEstimates KalmanBank::step(double sample) noexcept {
   if (!started_) start();
@@ -158,7 +152,7 @@ BankEstimates KalmanBank::start_anew(double sample) noexcept {
 BankEstimate KalmanBank::held(std::size_t age) const noexcept {
   assert(age <= lag_ && age < count_);
   BankEstimate estimate = combine(age);
-  estimate.rate += denoised_correction_.step + denoised_correction_.paid;
+  estimate.rate += denoised_correction_.step + denoised_correction_.slow.paid();
   estimate.variance = widened(estimate.variance);
   return estimate;
 }
@@ -167,11 +161,8 @@ void KalmanBank::correct(double sample, Correction& correction, BankEstimate& an
   correction.step *= options_.hand_over_memory;
   answer.rate += correction.step;
   const double noise = model_.noise_variance * unit_;
-  const double share = noise > 0.0 ? options_.correction_share * answer.variance / noise : 0.0;
-  const double rate = std::max(correction_rate_, std::min(share, kMostCorrection));
-  correction.paid = rate * (correction.owed + sample - answer.rate);
-  answer.rate += correction.paid;
-  correction.owed += sample - answer.rate;
+  const double ratio = noise > 0.0 ? answer.variance / noise : 0.0;
+  answer.rate = correction.slow.apply(sample, answer.rate, ratio, options_, model_.scale);
   answer.variance = widened(answer.variance);
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/joint/joint_model.hpp"
 #include "core/joint/joint_options.hpp"
+#include "core/joint/slow_correction.hpp"
 
 namespace gyrod::core {
 
@@ -29,10 +30,8 @@ struct BankEstimates {
 /// now one member fits and now another, so that evidence adds up for as long as nothing speaks against it. The estimate at lag L is
 ///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
 /// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2), published times
-/// variance_factor. A slow correction makes of e the answer,
-///   out = e + c (owed + z[t-L] - e),   owed <- owed + z[t-L] - out,   c = max(correction_rate, correction_share P / noise variance),
-/// after what is left of the step that the last new model made (a fifth less with every sample) has been taken back: a new model begins
-/// where the last one was. So what no member expects still arrives, and the sum of the answers stays with that of the samples, also from one model to the next.
+/// variance_factor. What is left of the step that the last new model made (a fifth less with every sample) is taken back, so that a new model
+/// begins where the last one was, and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed.
 /// Before the first model, three local levels (random walks seen in white noise) answer.
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -73,9 +72,8 @@ class KalmanBank {
 
   /// What one of the outputs adds to the mixture's mean.
   struct Correction {
-    double owed = 0.0;  ///< sum of samples less answers
-    double paid = 0.0;  ///< of that with the last answer
     double step = 0.0;  ///< what is left of the step from the last model's answer to the next one's
+    SlowCorrection slow;
   };
 
   void correct(double sample, Correction& correction, BankEstimate& answer) const noexcept;
@@ -99,7 +97,6 @@ class KalmanBank {
   bool started_ = false;
   bool fitted_ = false;  ///< model_ came from a window
   double switching_rate_ = 0.0;
-  double correction_rate_ = 0.0;
   double unit_ = 1.0;        ///< variances of the model in use are in parts of this
   std::uint64_t count_ = 0;  ///< samples taken
   std::vector<double> history_;

@@ -133,6 +133,7 @@ TEST(KalmanBank, ANewModelMakesNoStep) {
 TEST(KalmanBank, TakesSwitchingAndCorrectionAtTheModelsScale) {
   const Signal z = simulated(blocks(), 500, 9);
   JointModel model = single(blocks());
+  model.noise_variance = kBankNoise;
   BlockSet lively = blocks();
   lively.blocks[1].drive *= 10.0;
   ASSERT_TRUE(MemberDesigner().design(lively, kBankNoise, model.member(MemberKind::kPruned)));
@@ -143,6 +144,7 @@ TEST(KalmanBank, TakesSwitchingAndCorrectionAtTheModelsScale) {
   bank.use(scaled);
   options.switching_rate = scaled.scale.switching_rate(options.switching_rate);
   options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
+  options.steady_memory = scaled.scale.steady_memory(options.steady_memory);
   KalmanBank expected(options, 16);
   expected.use(model);
   for (const double sample : z)

@@ -1,0 +1,100 @@
+// What the bank gives back of slow motion, and how fast.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "unit/core/joint/bank_support.hpp"
+
+namespace gyrod {
+namespace {
+
+using core::BlockSet;
+using core::JointModel;
+using core::JointOptions;
+using core::KalmanBank;
+using testing::bare;
+using testing::blocks;
+using testing::kBankNoise;
+using testing::Signal;
+using testing::simulated;
+using testing::single;
+
+constexpr double kMemory = 50.0;
+
+JointOptions correcting() {
+  JointOptions options = bare();
+  options.correction_rate = 0.006;
+  options.correction_share = 0.04;
+  options.steady_correction = 1.0;
+  options.most_steady_correction = 0.04;
+  options.steady_memory = kMemory;
+  return options;
+}
+
+/// Motion driven by `drive` times the variance: the more, the larger is P.
+JointModel moving(double drive) {
+  BlockSet set = blocks();
+  for (core::FilterBlock& block : set.blocks) block.drive *= block.signal ? drive : 1.0;
+  JointModel model = single(set);
+  model.noise_variance = kBankNoise;
+  return model;
+}
+
+/// The answer is e + c (owed + z - e): what it differs by from that of a bank without correction, over owed + z - e, is c.
+class Rates {
+ public:
+  Rates() : plain_(bare(), 0), bank_(correcting(), 0) {}
+
+  void use(const JointModel& model) {
+    plain_.use(model);
+    bank_.use(model);
+  }
+  double step(double sample) {
+    const core::BankEstimate e = plain_.step(sample).realtime;
+    const double out = bank_.step(sample).realtime.rate;
+    const double rate = (out - e.rate) / (owed_ + sample - e.rate);
+    ratio_ = e.variance / kBankNoise;
+    owed_ += sample - out;
+    return rate;
+  }
+  /// Variance over the noise's, constant under one model of one member.
+  [[nodiscard]] double ratio() const { return ratio_; }
+
+ private:
+  KalmanBank plain_;
+  KalmanBank bank_;
+  double owed_ = 0.0;
+  double ratio_ = 0.0;
+};
+
+// With P constant the least of late comes up to it as 1 - (1 - 1/M)^t, and the rate with its square.
+TEST(KalmanBankCorrection, IsFasterTheLongerTheVarianceHasBeenLarge) {
+  Rates rates;
+  rates.use(moving(0.03));
+  double before = 0.0;
+  int t = 0;
+  for (const double sample : simulated(blocks(), 600, 4)) {
+    const double rate = rates.step(sample);
+    const double steady = rates.ratio() * (1.0 - std::pow(1.0 - 1.0 / kMemory, ++t));
+    const double expected = std::max({0.006, 0.04 * rates.ratio(), std::min(steady * steady, 0.04)});
+    ASSERT_NEAR(rate, expected, 1e-6 * expected) << t;
+    ASSERT_GE(expected, before);
+    before = expected;
+  }
+  EXPECT_GT(before, 1.5 * std::max(0.006, 0.04 * rates.ratio())) << "the square counts";
+}
+
+// A turn between straight stretches makes P large for a moment: no reason to let the noise of slow motion through.
+TEST(KalmanBankCorrection, ForgetsAtOnceThatTheVarianceWasLarge) {
+  Rates rates;
+  rates.use(moving(0.03));
+  const Signal z = simulated(blocks(), 600, 4);
+  for (std::size_t t = 0; t < 300; ++t) rates.step(z[t]);
+  rates.use(moving(0.001));
+  const double rate = rates.step(z[300]);
+  EXPECT_NEAR(rate, std::max({0.006, 0.04 * rates.ratio(), rates.ratio() * rates.ratio()}), 1e-9);
+}
+
+}  // namespace
+}  // namespace gyrod
