@@ -10,6 +10,10 @@ set -euo pipefail
 gyrod=${1:?path of gyrod}
 sensors=${2:-1000}
 seconds=${3:-60}
+if [[ ! -f $gyrod || ! -x $gyrod ]]; then
+  echo "many_sensors.sh: $gyrod: expected the path of the gyrod binary" >&2
+  exit 2
+fi
 folder=$(mktemp -d)
 started=()
 finish() {
@@ -26,6 +30,13 @@ cat > "$folder/gyrod.json" <<JSON
  "monitor": {"port": 19464}}
 JSON
 
+# Waits for the condition as long as the process lives.
+until_or_end() {
+  until eval "$2"; do
+    kill -0 "$1" 2>/dev/null || { cat "$folder"/*.log >&2; exit 1; }
+    sleep 0.1
+  done
+}
 metric() { curl -s http://127.0.0.1:19464/metrics | awk -v name="$1" '$1 == name { print $2 }'; }
 resident_mib() { awk '/^VmRSS/ { printf "%.0f", $2 / 1024 }' "/proc/$1/status"; }
 processor_s() { awk -v hz="$(getconf CLK_TCK)" '{ printf "%.1f", ($14 + $15) / hz }' "/proc/$1/stat"; }
@@ -33,11 +44,11 @@ processor_s() { awk -v hz="$(getconf CLK_TCK)" '{ printf "%.1f", ($14 + $15) / h
 "$gyrod" run --config "$folder/gyrod.json" 2> "$folder/daemon.log" &
 daemon=$!
 started+=("$daemon")
-until [[ $(metric gyrod_ready) == 1 ]]; do sleep 0.1; done
+until_or_end "$daemon" '[[ $(metric gyrod_ready) == 1 ]]'
 "$gyrod" record --topic gyro/denoised_batch -o /dev/null --config "$folder/gyrod.json" 2> "$folder/recorder.log" &
 recorder=$!
 started+=("$recorder")
-until grep -q listening "$folder/recorder.log"; do sleep 0.1; done
+until_or_end "$recorder" 'grep -q listening "$folder/recorder.log"'
 "$gyrod" simulate --sensor imu --sensors "$sensors" --batch 10 --seconds "$seconds" --config "$folder/gyrod.json" 2> "$folder/sensors.log" &
 simulator=$!
 started+=("$simulator")
@@ -47,7 +58,7 @@ while kill -0 "$simulator" 2>/dev/null; do
   echo "$SECONDS $(metric gyrod_samples_received_total) $(resident_mib "$daemon") $(processor_s "$daemon") $(processor_s "$recorder") $(processor_s "$simulator" 2>/dev/null || true) $(cut -d' ' -f1 /proc/loadavg)"
   sleep 10
 done
-until [[ $(metric gyrod_samples_in_flight) == 0 ]]; do sleep 0.2; done
+until_or_end "$daemon" '[[ $(metric gyrod_samples_in_flight) == 0 ]]'
 cat "$folder/sensors.log"
 for name in received published in_flight missing passed_through; do
   suffix=_total
