@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <utility>
 
 namespace gyrod::bus {
 namespace {
@@ -43,11 +44,16 @@ void OtherDaemons::look(dds_entity_t reader, double now_s) {
   const dds_return_t found = dds_get_matched_publications(reader, handles.data(), handles.size());
   const std::size_t count =
       std::min<std::size_t>(found > 0 ? static_cast<std::size_t>(found) : 0, kMostOthers);
-  stronger_.clear();
+  const auto before = std::exchange(stronger_, {});
   for (std::size_t i = 0; i < count; ++i) {
     // A writer without a strength is no daemon of these.
     if (const std::uint32_t strength = strength_of(reader, handles[i]); strength > 0)
       stronger_[handles[i]] = strength > strength_;
+  }
+  for (const auto& [writer, stronger] : before) {
+    if (stronger_.contains(writer)) continue;
+    if (left_.size() >= kMostOthers) left_.clear();
+    left_[writer] = {stronger, now_s};
   }
   if (std::ranges::any_of(stronger_,
                           [this](const auto& one) { return one.second && !silent_.contains(one.first); }))
@@ -62,9 +68,18 @@ bool OtherDaemons::was_stopped(double now_s) noexcept {
   return true;
 }
 
+bool OtherDaemons::is_stronger(dds_instance_handle_t writer) const {
+  if (const auto found = stronger_.find(writer); found != stronger_.end()) return found->second;
+  const auto left = left_.find(writer);
+  return left != left_.end() && left->second.stronger;
+}
+
 Others OtherDaemons::now(double now_s) const {
-  return {.any = !stronger_.empty(),
-          .stronger = std::ranges::any_of(stronger_, [](const auto& writer) { return writer.second; }),
+  const auto just_left = [now_s](const auto& one) { return now_s - one.second.since_s < kLongestTick_s; };
+  const auto is_stronger_one = [&](const auto& one) { return one.second.stronger && just_left(one); };
+  return {.any = !stronger_.empty() || std::ranges::any_of(left_, just_left),
+          .stronger = std::ranges::any_of(stronger_, [](const auto& writer) { return writer.second; }) ||
+                      std::ranges::any_of(left_, is_stronger_one),
           .looked = now_s - looking_since_s_ >= kTimeToLook_s,
           .stronger_lived_s = stronger_lived_s_};
 }

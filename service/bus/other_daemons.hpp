@@ -39,21 +39,28 @@ class OtherDaemons {
   [[nodiscard]] bool was_stopped(double now_s) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return stronger_.size(); }
-  [[nodiscard]] bool knows(dds_instance_handle_t writer) const { return stronger_.contains(writer); }
-  [[nodiscard]] bool is_stronger(dds_instance_handle_t writer) const {
-    const auto found = stronger_.find(writer);
-    return found != stronger_.end() && found->second;
+  /// Also of one that has left: its last messages may still have to be taken.
+  [[nodiscard]] bool knows(dds_instance_handle_t writer) const {
+    return stronger_.contains(writer) || left_.contains(writer);
   }
+  [[nodiscard]] bool is_stronger(dds_instance_handle_t writer) const;
+  /// One that has left is counted for a tick more: discovery and messages come on ways of their own, and what it sent last counts.
   [[nodiscard]] Others now(double now_s) const;
 
  private:
+  struct Left {
+    bool stronger = false;
+    double since_s = 0.0;
+  };
+
   std::uint32_t strength_;
   double takeover_s_;
   double looking_since_s_;
   double looked_s_;  ///< last
   double stronger_lived_s_ = std::numeric_limits<double>::lowest();
   std::map<dds_instance_handle_t, bool> stronger_;
-  std::set<dds_instance_handle_t> silent_;  ///< those that have let their lease end
+  std::map<dds_instance_handle_t, Left> left_;  ///< the last ones
+  std::set<dds_instance_handle_t> silent_;      ///< those that have let their lease end
 };
 
 }  // namespace gyrod::bus
