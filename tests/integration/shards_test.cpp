@@ -174,10 +174,10 @@ TEST_P(WhileTheCountChanges, NoSampleComesTwiceAndTheHolesAreAsPromised) {
   const double before = served_here(2, *alone);
   EXPECT_TRUE(eventually([&] { return served_here(2, *alone) > before; }))
       << "who was there before takes what nobody else serves: " << alone->err();
-  const double disputes = second_disputes + metric_on(2, *alone, "gyrod_shard_disputes_total") +
-                          metric_on(4, *first, "gyrod_shard_disputes_total");
   sensors->signal(SIGINT);
   EXPECT_EQ(sensors->wait(), 0) << sensors->err();
+  const double disputes = second_disputes + metric_on(2, *alone, "gyrod_shard_disputes_total") +
+                          metric_on(4, *first, "gyrod_shard_disputes_total");
   for (const auto* daemon : {&alone, &first}) EXPECT_EQ(stop_daemon(**daemon), 0) << (*daemon)->err();
   recorder->signal(SIGINT);
   (void)recorder->wait();
