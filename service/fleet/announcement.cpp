@@ -9,6 +9,7 @@ constexpr std::string_view kShard = "gyrod.shard=";
 constexpr std::string_view kState = "gyrod.state=";
 constexpr std::string_view kYields = "gyrod.yields=";
 constexpr std::string_view kGreets = "gyrod.greets=";
+constexpr std::string_view kAwaits = "gyrod.awaits=";
 
 /// What stands before the next separator; `text` then begins behind it.
 std::string_view cut(std::string_view& text, char separator) {
@@ -42,7 +43,7 @@ std::vector<std::string> ids_in(std::string_view list) {
 std::string text_of(const Announcement& announcement) {
   return std::string(kShard) + text_of(announcement.shard) + ";" + std::string(kState) +
          (announcement.active ? "active" : "joining") + ";" + list_of(kYields, announcement.yields_to) +
-         list_of(kGreets, announcement.greets);
+         list_of(kGreets, announcement.greets) + list_of(kAwaits, announcement.awaits);
 }
 
 std::optional<Announcement> parse_announcement(std::string_view text) {
@@ -60,6 +61,8 @@ std::optional<Announcement> parse_announcement(std::string_view text) {
       read.yields_to = ids_in(*yields);
     } else if (const auto greets = value_of(entry, kGreets)) {
       read.greets = ids_in(*greets);
+    } else if (const auto awaits = value_of(entry, kAwaits)) {
+      read.awaits = ids_in(*awaits);
     }
   }
   if (!shard) return std::nullopt;

@@ -11,7 +11,7 @@
 namespace gyrod::fleet {
 
 /// Goes round as text with the writer of denoised samples (DDS: its user data), which others than gyrod may read:
-///   "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=ID,ID;gyrod.greets=ID;"
+///   "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=ID,ID;gyrod.greets=ID;gyrod.awaits=ID;"
 struct Announcement {
   Shard shard;
   bool active = false;  ///< false: joining, takes part in who yields to whom and serves nothing
@@ -19,6 +19,8 @@ struct Announcement {
       yields_to;  ///< ids of daemons for which this one has stopped to serve what both hold
 
   std::vector<std::string> greets = {};  ///< ids of daemons that this one has heard are joining
+  /// Ids of daemons to which this one leaves what both hold until they yield.
+  std::vector<std::string> awaits = {};
 
   friend bool operator==(const Announcement&, const Announcement&) = default;
 };

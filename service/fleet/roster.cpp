@@ -21,8 +21,8 @@ ServingRule both(const ServingRule& a, const ServingRule& b) {
 void Roster::show(const std::string& id, const Announcement& announcement) {
   const auto known = peers_.find(id);
   if (known == peers_.end() && peers_.size() == kMostPeers) return;
-  const bool was_awaited = known != peers_.end() && awaited(known->second);  // and then not served
-  if (state_ == State::kActive && !was_awaited && announcement.active && awaited(announcement)) ++disputes_;
+  const bool was_left = known != peers_.end() && (awaited(known->second) || yields_to(known->second));
+  if (state_ == State::kActive && !was_left && disputed_by(announcement)) ++disputes_;
   peers_.insert_or_assign(id, announcement);
 }
 
@@ -41,6 +41,11 @@ bool Roster::awaited(const Announcement& peer) const {
          std::ranges::find(peer.yields_to, id_) == peer.yields_to.end();
 }
 
+bool Roster::disputed_by(const Announcement& peer) const {
+  if (awaited(peer)) return peer.active;
+  return yields_to(peer) && std::ranges::find(peer.awaits, id_) == peer.awaits.end();
+}
+
 ServingRule Roster::rule() const {
   ServingRule rule{own_, state_ == State::kActive};
   for (const auto& [id, peer] : peers_) {
@@ -51,10 +56,11 @@ ServingRule Roster::rule() const {
 
 Announcement Roster::announcement() const {
   assert(state_ != State::kListening);
-  Announcement told{own_, state_ == State::kActive, {}, {}};
+  Announcement told{own_, state_ == State::kActive, {}};
   for (const auto& [id, peer] : peers_) {
     if (yields_to(peer)) told.yields_to.push_back(id);
     if (!peer.active) told.greets.push_back(id);
+    if (awaited(peer)) told.awaits.push_back(id);
   }
   return told;
 }

@@ -50,8 +50,9 @@ struct Standing {
 ///
 /// Why never two, A with the smaller count and B with the larger: A was announced, joining, for longer than news take before it served,
 /// so B knew of A, and served only after A had told that it yields to B. A takes that back only when it has lost sight of B, and says
-/// so before it serves again. Only daemons that lose sight of one another while both run (a broken network) can serve the same sensor;
-/// when they meet again that is counted as a dispute.
+/// so before it serves again. Only daemons that lose sight of one another while both run, or find one another late (a broken network),
+/// can serve the same sensor. When they meet, at least one of them counts that as a dispute: B, if A is shown that has not yielded to it,
+/// or A, if B is shown that does not await it. News may overtake one another up to the newest, so B may never see A as it was.
 ///
 /// One thread.
 class Roster {
@@ -86,6 +87,8 @@ class Roster {
   [[nodiscard]] bool yields_to(const Announcement& peer) const noexcept;
   /// A peer that has to give up, before this one may serve, what both hold.
   [[nodiscard]] bool awaited(const Announcement& peer) const;
+  /// A peer that, as it tells, may serve what this one serves as long as it leaves it nothing.
+  [[nodiscard]] bool disputed_by(const Announcement& peer) const;
   [[nodiscard]] std::size_t missing() const;
 
   std::string id_;

@@ -125,8 +125,9 @@ class FleetMembersTest : public BusTest {
 TEST_P(FleetMembersTest, WithoutAShardItServesAllAtOnceAndSaysSo) {
   const Member member(here_, options_, std::nullopt);
   EXPECT_EQ(member.handler().rule(), (fleet::ServingRule{{1, 1}, true})) << "with its start";
-  wait_until(
-      [&] { return look().text == "gyrod.shard=1/1;gyrod.state=active;gyrod.yields=;gyrod.greets=;"; });
+  wait_until([&] {
+    return look().text == "gyrod.shard=1/1;gyrod.state=active;gyrod.yields=;gyrod.greets=;gyrod.awaits=;";
+  });
 }
 
 TEST_P(FleetMembersTest, WithAShardItServesWhenItHasListenedAndJoinedAndTellsWhenItLeaves) {
@@ -134,8 +135,9 @@ TEST_P(FleetMembersTest, WithAShardItServesWhenItHasListenedAndJoinedAndTellsWhe
   EXPECT_THAT(member.handler().rules(), ElementsAre(fleet::ServingRule{{2, 3}, false}));
   wait_until([&] { return member.is_active(); });
   EXPECT_EQ(member.handler().rule(), (fleet::ServingRule{{2, 3}, true}));
-  wait_until(
-      [&] { return look().text == "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=;gyrod.greets=;"; });
+  wait_until([&] {
+    return look().text == "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=;gyrod.greets=;gyrod.awaits=;";
+  });
   member.leave();
   wait_until([&] { return look().text.empty(); });
 }

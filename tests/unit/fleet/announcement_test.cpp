@@ -10,13 +10,13 @@ using ::testing::SizeIs;
 
 TEST(Announcement, IsReadBackAsItWasTold) {
   for (const Announcement& told :
-       {Announcement{{2, 3}, true, {"a1", "b2"}, {"c3"}}, Announcement{{1, 1}, false, {}}})
+       {Announcement{{2, 3}, true, {"a1", "b2"}, {"c3"}, {"d4"}}, Announcement{{1, 1}, false, {}}})
     EXPECT_EQ(parse_announcement(text_of(told)), told);
 }
 
 TEST(Announcement, IsTextThatOthersCanRead) {
-  EXPECT_EQ(text_of(Announcement{{2, 3}, true, {"a1", "b2"}, {"c3"}}),
-            "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=a1,b2;gyrod.greets=c3;");
+  EXPECT_EQ(text_of(Announcement{{2, 3}, true, {"a1", "b2"}, {"c3"}, {"d4", "e5"}}),
+            "gyrod.shard=2/3;gyrod.state=active;gyrod.yields=a1,b2;gyrod.greets=c3;gyrod.awaits=d4,e5;");
 }
 
 TEST(Announcement, LeavesRoomForWhatOthersWriteBesides) {
@@ -34,7 +34,7 @@ TEST(Announcement, IsNoneWithoutAShardOrWithAnythingMalformed) {
 
 TEST(Announcement, OfAStrangerIsBounded) {
   std::string text = "gyrod.shard=1/2;gyrod.state=active";
-  for (const char* key : {";gyrod.yields=", ";gyrod.greets="}) {
+  for (const char* key : {";gyrod.yields=", ";gyrod.greets=", ";gyrod.awaits="}) {
     text += key;
     for (int i = 0; i < 100000; ++i) text += "x,";
   }
@@ -42,6 +42,7 @@ TEST(Announcement, OfAStrangerIsBounded) {
   ASSERT_TRUE(read.has_value());
   EXPECT_THAT(read->yields_to, SizeIs(kMostPeers));
   EXPECT_THAT(read->greets, SizeIs(kMostPeers));
+  EXPECT_THAT(read->awaits, SizeIs(kMostPeers));
 }
 
 }  // namespace
