@@ -6,11 +6,12 @@
 namespace gyrod::stream {
 namespace {
 
-/// Variance of the white noise, where it is known from elsewhere. The colour is left aside: the noise line is that of white noise.
+/// Variance of the noise, where it is known from elsewhere, all of it: the noise line is that of white noise, and white noise of as much
+/// energy is nearest. The white part alone, half the least density, would make every IMF of a sensor at rest look like signal.
 std::optional<double> known_noise(const WindowInput& window) noexcept {
   if (window.noise_source < NoiseSource::kStandstill) return std::nullopt;
   assert(core::is_usable(window.noise));
-  return window.noise.white_variance;
+  return core::noise_variance(window.noise);
 }
 
 class PaperMethod final : public WindowMethod {

@@ -133,6 +133,14 @@ TEST(PaperMethod, TakesTheNoiseThatIsKnownInsteadOfImf1s) {
   };
   EXPECT_EQ(floor_with(noise_of(NoiseSource::kCalibrated, 0.25)), 0.5);
   EXPECT_EQ(floor_with(noise_of(NoiseSource::kStandstill, 0.25)), 0.5);
+  // AR(1) with pole 1/2: variance 0.75 / (1 - 1/4) = 1 beside the white part's 0.44.
+  ChannelNoise coloured = noise_of(NoiseSource::kCalibrated, 0.44);
+  for (core::NoiseModel& model : coloured.axis) {
+    model.colour_variance = 0.75;
+    model.colour_order = 1;
+    model.colour[0] = 0.5;
+  }
+  EXPECT_NEAR(floor_with(coloured), 1.2, 1e-12) << "the whole of it";
   // noisy_samples() has a standard deviation of 0.006; of 128 samples' IMF 1 it is known to some 10 %.
   EXPECT_NEAR(floor_with({}), 0.006, 0.0018);
 }
