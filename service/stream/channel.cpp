@@ -29,7 +29,11 @@ Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMe
       sensor_(std::move(sensor)),
       jobs_(options.max_queued_windows),
       judge_(options.health, options.window_samples) {
-  if (models != nullptr) fast_loop.emplace(*models, options.lag_samples);
+  if (models != nullptr) {
+    fast_loop.emplace(*models, options.lag_samples);
+  } else {
+    splice.emplace(options.lag_samples);
+  }
   if (options.noise) noise = options.noise(sensor_);
   if (options.learner) learner = options.learner(sensor_);
   if (options.published_before) published_before_ = options.published_before(sensor_);

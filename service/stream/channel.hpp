@@ -19,6 +19,7 @@
 #include "stream/hop_schedule.hpp"
 #include "stream/sample_gate.hpp"
 #include "stream/sample_ring.hpp"
+#include "stream/splice.hpp"
 
 namespace gyrod::stream {
 
@@ -102,6 +103,7 @@ class Channel {
 
   // --- owner
   // ---------------------------------------------------------------------------------------------------------
+  std::optional<Splice> splice;  ///< window methods only
   /// Takes ownership of the oldest window; none where there is none or another owner is at work.
   /// @param scheduled the caller took the channel from the scheduler's queue
   [[nodiscard]] std::optional<WindowJob> begin_work(bool scheduled);

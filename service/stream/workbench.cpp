@@ -61,10 +61,11 @@ void Workbench::collect(const Channel& channel, const WindowJob& job) noexcept {
   }
 }
 
-void Workbench::denoise(WindowMethod& method, const Channel& channel, const WindowJob& job) noexcept {
+void Workbench::denoise(WindowMethod& method, Channel& channel, const WindowJob& job) noexcept {
   const std::span<double> denoised{denoised_.data(), static_cast<std::size_t>(job.end - job.begin)};
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     method.denoise(input(channel, job, axis), denoised, report_.axis[axis]);
+    channel.splice->join(job, axis, denoised);
     std::size_t index = 0;
     for (Position position = job.release_begin; position < job.release_end; ++position) {
       if (!channel.ring.released(position)) continue;

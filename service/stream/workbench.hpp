@@ -41,7 +41,7 @@ class Workbench {
 
  private:
   void collect(const Channel& channel, const WindowJob& job) noexcept;
-  void denoise(WindowMethod& method, const Channel& channel, const WindowJob& job) noexcept;
+  void denoise(WindowMethod& method, Channel& channel, const WindowJob& job) noexcept;
   void fit(ModelMethod& method, Channel& channel, const WindowJob& job) noexcept;
   void describe(Channel& channel, const WindowJob& job) noexcept;
   [[nodiscard]] WindowInput input(const Channel& channel, const WindowJob& job, std::size_t axis) noexcept;

@@ -107,9 +107,10 @@ void joint_guards(const Contender& plain, const GuardCase& on, const GuardLimits
     return;
   }
   const double share_limit = 0.05 + 3.0 * figures->outlier_standard_error;
+  const double roughness_limit = std::max(limits.roughness, figures->roughness_beside);
   const double step_limit = std::max(limits.worst_step, figures->worst_step_elsewhere);
-  all.push_back({GuardKind::kJointRoughness, verdict(figures->roughness <= limits.roughness),
-                 figures->roughness, std::nullopt, limits.roughness, ""});
+  all.push_back({GuardKind::kJointRoughness, verdict(figures->roughness <= roughness_limit),
+                 figures->roughness, std::nullopt, roughness_limit, ""});
   all.push_back({GuardKind::kJointOutliers, verdict(figures->outlier_share <= share_limit),
                  figures->outlier_share, figures->outlier_standard_error, share_limit, ""});
   all.push_back({GuardKind::kJointWorstStep, verdict(figures->worst_step <= step_limit), figures->worst_step,

@@ -25,6 +25,44 @@ double rms(const std::vector<double>& x) noexcept {
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
+/// Sums of squares by the place in the period; a joint at place p lies in the second differences about p and p - 1.
+class Roughness {
+ public:
+  explicit Roughness(std::size_t period) : squares_(period), counts_(period) {}
+
+  void add(std::size_t t, double bend) {
+    if (!std::isfinite(bend)) return;
+    const std::size_t place = t % squares_.size();
+    squares_[place] += bend * bend;
+    counts_[place] += 1.0;
+    all_ += bend * bend;
+    count_ += 1.0;
+  }
+
+  /// @return rms at joints at this place / rms elsewhere; 0 where that says nothing
+  [[nodiscard]] double at(std::size_t place) const noexcept {
+    const std::size_t before = (place + squares_.size() - 1) % squares_.size();
+    const double squares = squares_[place] + squares_[before];
+    const double count = counts_[place] + counts_[before];
+    if (count == 0.0 || count == count_ || !(all_ > squares)) return 0.0;
+    return std::sqrt(squares / count / ((all_ - squares) / (count_ - count)));
+  }
+
+  /// The largest at places that share no second difference with this one.
+  [[nodiscard]] double largest_beside(std::size_t place) const noexcept {
+    double largest = 0.0;
+    for (std::size_t away = 2; away + 1 < squares_.size(); ++away)
+      largest = std::max(largest, at((place + away) % squares_.size()));
+    return largest;
+  }
+
+ private:
+  std::vector<double> squares_;
+  std::vector<double> counts_;
+  double all_ = 0.0;
+  double count_ = 0.0;
+};
+
 double quantile_95(std::vector<double> x) {
   const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(x.size() - 1));
   std::ranges::nth_element(x, x.begin() + rank);
@@ -43,8 +81,11 @@ std::optional<JointFigures> joint_figures(const Contender& contender, SampleRang
   const std::size_t end = std::min(range.end, e.size());
   Sorted bends;
   Sorted steps;
+  Roughness roughness(period);
   for (std::size_t t = range.begin + 1; t + 1 < end; ++t) {
-    bends.add(is_first(t) || is_first(t + 1), e[t - 1] - 2.0 * e[t] + e[t + 1]);
+    const double bend = e[t - 1] - 2.0 * e[t] + e[t + 1];
+    bends.add(is_first(t) || is_first(t + 1), bend);
+    roughness.add(t, bend);
     steps.add(is_first(t), e[t] - e[t - 1]);
   }
   if (steps.at.size() < kFewest || bends.elsewhere.size() < kFewest || rms(bends.elsewhere) <= 0.0)
@@ -53,7 +94,8 @@ std::optional<JointFigures> joint_figures(const Contender& contender, SampleRang
   const double beyond =
       static_cast<double>(std::ranges::count_if(bends.at, [limit](double bend) { return bend > limit; }));
   JointFigures figures;
-  figures.roughness = rms(bends.at) / rms(bends.elsewhere);
+  figures.roughness = roughness.at(first % period);
+  figures.roughness_beside = roughness.largest_beside(first % period);
   figures.outlier_share = beyond / static_cast<double>(bends.at.size());
   // Two second differences belong to one joint: they are not independent.
   figures.outlier_standard_error = std::sqrt(0.05 * 0.95 / static_cast<double>(steps.at.size()));

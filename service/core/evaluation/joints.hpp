@@ -11,6 +11,8 @@ namespace gyrod::core {
 /// the first sample of a piece.
 struct JointFigures {
   double roughness = 0.0;  ///< rms of the second differences at joints / rms of those elsewhere
+  /// The largest such ratio if the joints were two samples or more beside where they are: what a few knocks make of it by chance.
+  double roughness_beside = 0.0;
   double outlier_share =
       0.0;  ///< of the second differences at joints beyond the 95 % quantile of |those elsewhere|
   double outlier_standard_error =

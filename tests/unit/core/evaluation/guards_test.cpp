@@ -1,6 +1,7 @@
 #include "core/evaluation/guards.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -98,6 +99,22 @@ TEST(Guards, FailOneWithStepsAtItsJoints) {
   EXPECT_EQ(guard_of(GuardKind::kJointRoughness, steps).verdict, Verdict::kFail);
   EXPECT_EQ(guard_of(GuardKind::kJointOutliers, steps).verdict, Verdict::kFail);
   EXPECT_EQ(guard_of(GuardKind::kJointWorstStep, steps).verdict, Verdict::kFail);
+}
+
+TEST(Guards, DoNotTakeKnocksForJoints) {
+  // Twelve knocks, each at this place of its hop; joints are at 16.
+  const auto knocks_at = [](const std::array<std::size_t, 12>& places) {
+    return [places](std::vector<double>& x) {
+      for (std::size_t k = 0; k < places.size(); ++k) x[32 * (30 + 40 * k) + places[k]] += 20.0;
+    };
+  };
+  const Guard chance =
+      guard_of(GuardKind::kJointRoughness, knocks_at({16, 16, 22, 22, 22, 3, 5, 8, 11, 26, 29, 31}));
+  EXPECT_GT(*chance.value, 1.2);
+  EXPECT_EQ(chance.verdict, Verdict::kPass) << "elsewhere there are more in one place";
+  const Guard more =
+      guard_of(GuardKind::kJointRoughness, knocks_at({16, 16, 16, 22, 22, 1, 3, 5, 8, 26, 29, 31}));
+  EXPECT_EQ(more.verdict, Verdict::kFail) << "nowhere else are so many";
 }
 
 TEST(Guards, FailOneWithASingleLargeStepAtAJoint) {
