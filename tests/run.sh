@@ -35,7 +35,7 @@ stage_tidy() {
 build_and_test() {
   cmake --preset "$1"
   cmake --build --preset "$1" -j "$jobs"
-  ctest --preset "$1" -j $((jobs + 1)) --no-tests=error # many wait more than they compute
+  ctest --preset "$1" -j $((2 * jobs)) --no-tests=error # many wait more than they compute
 }
 stage_release() { build_and_test release; }
 stage_asan() { build_and_test asan; }
