@@ -136,6 +136,7 @@ core::JointOptions options_of(const Arguments& arguments) {
   set("pruned_iterations", options.pruned_iterations);
   set("shrinkage", options.shrinkage);
   set("bandwidth_cycles", options.bandwidth_cycles);
+  set("line_pole", options.line_pole);
   set("prune_gain", options.prune_gain);
   set("pole_factor", options.pole_factor);
   set("level_pole", options.level_pole);

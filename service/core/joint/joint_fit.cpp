@@ -4,11 +4,11 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "core/denoise/noise_line.hpp"
-#include "core/joint/tone.hpp"
 #include "core/signal/moments.hpp"
 
 namespace gyrod::core {
@@ -66,6 +66,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   report.tone_amplitude = tone.amplitude * std::sqrt(unit_);
   if (!is_usable(noise_)) return;
   decompose(report);
+  start_line(tone);
   whittle_.observe(periodogram_, noise_);
   whittle_.iterate(full_, options_.pruned_iterations);
   pruned_ = full_;
@@ -151,6 +152,20 @@ void JointFit::start_mode(std::span<const double> imf, const ImfFigures& figures
   if (slow || mode.drive > 0.0) full_.add(mode);
 }
 
+/// A tone beside others in an IMF makes that IMF's mode no narrower than the fit takes long to find out.
+void JointFit::start_line(const Tone& tone) noexcept {
+  if (!(tone.amplitude > 0.0) || full_.full()) return;
+  std::array<double, kModeOrder + 1> r{};
+  double power = tone.amplitude * tone.amplitude / 2.0;
+  for (std::size_t lag = 0; lag < r.size(); ++lag) {
+    r[lag] = power * std::cos(2.0 * std::numbers::pi * tone.frequency_cycles * static_cast<double>(lag));
+    power *= options_.line_pole;
+  }
+  SpectralMode mode = whittle_.mode_of(r, false);
+  mode.line = true;
+  if (mode.drive > 0.0) full_.add(mode);
+}
+
 void JointFit::design(JointModel& model) noexcept {
   model.fallbacks = 0;
   model.noise_variance = unit_ * noise_variance(noise_);
@@ -183,12 +198,12 @@ void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
   member.prediction_variance *= unit_;
 }
 
-/// The modes, all but the slow one driven drive_ratio times as hard, with their roots pulled in; and the noise's colour.
+/// The modes, all but the slow one and a line driven drive_ratio times as hard, with their roots pulled in; and the noise's colour.
 BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
   BlockSet set;
   for (const SpectralMode& mode : modes.modes()) {
     FilterBlock block{.order = kModeOrder,
-                      .drive = mode.drive * (mode.slow ? 1.0 : drive_ratio),
+                      .drive = mode.drive * (mode.slow || mode.line ? 1.0 : drive_ratio),
                       .signal = is_signal(mode)};
     double factor = 1.0;
     for (std::size_t i = 0; i < kModeOrder; ++i) {

@@ -12,13 +12,14 @@
 #include "core/joint/joint_options.hpp"
 #include "core/joint/noise_peak.hpp"
 #include "core/joint/recency_tapers.hpp"
+#include "core/joint/tone.hpp"
 #include "core/joint/whittle_fit.hpp"
 #include "core/noise/noise_model.hpp"
 
 namespace gyrod::core {
 
-/// Takes the window minus its mean apart (EMD), starts a mode from every IMF that holds more than noise and one from all that is slow,
-/// fits their spectra beside the noise's (WhittleFit), and makes the members of the bank (MemberDesigner).
+/// Takes the window minus its mean apart (EMD), starts a mode from every IMF that holds more than noise, one from all that is slow and one
+/// from a narrow tone, fits their spectra beside the noise's (WhittleFit), and makes the members of the bank (MemberDesigner).
 /// Sizes its workspace once; fit() allocates nothing and is a pure function of its input, but for members that cannot be made and keep
 /// what `model` held. One object per worker; not thread-safe.
 /// Source: docs/method.md, "Moving vehicles".
@@ -55,6 +56,7 @@ class JointFit {
   void decompose(WindowReport& report) noexcept;
   void describe(std::span<const double> imf, WindowReport& report) const noexcept;
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
+  void start_line(const Tone& tone) noexcept;
   void design(JointModel& model) noexcept;
   void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;

@@ -125,7 +125,9 @@ void WhittleFit::sum_spectra(const ModeSet& modes) noexcept {
 void WhittleFit::maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept {
   std::array<double, kLags> r{};
   kernel_->autocovariances(bins_, spectrum.data(), deviation_.data(), weights_.data(), r.data());
+  const bool line = mode.line;
   mode = mode_of(r, mode.slow);
+  mode.line = line;
   if (!mode.slow) mode.drive *= kept_;
 }
 

@@ -119,6 +119,15 @@ TEST(JointFit, MembersAreDesignedForTheirBlocks) {
 }
 
 // A white part of 1e-300 beside a colour of 1 overflows in the Riccati equation.
+// With its drive divided by 16 the tone would be all but given up by the still member: its innovations would have 0.64 of the variance.
+TEST(JointFit, NoMemberDoubtsATone) {
+  const Signal tone = testing::times(testing::tone(kWindow, 0.225), 3.0);
+  const JointModel model =
+      fitted(testing::sum(tone, testing::white_noise(kWindow, 1), 0.3), core::white_noise(0.09));
+  const double full = model.member(core::MemberKind::kFull).innovation_variance;
+  EXPECT_GT(model.member(core::MemberKind::kStill).innovation_variance, 0.72 * full);
+}
+
 TEST(JointFit, AMemberThatFailsKeepsWhatItHad) {
   JointFit fit(kWindow);
   WindowReport report;
