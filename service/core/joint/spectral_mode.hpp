@@ -14,8 +14,8 @@ struct SpectralMode {
   std::array<double, kModeOrder> a{};
   double drive = 0.0;  ///< unit^2
   bool slow = false;   ///< stands for all that is slower than T_slow
-  bool line =
-      false;  ///< stands for a narrow tone: its drive says how fast it changes, which no member doubts
+  /// Stands for a narrow tone: its drive says how fast it changes, which no member doubts.
+  bool line = false;
 };
 
 /// Up to kMaxModes of them; a plain value.
