@@ -27,7 +27,11 @@ void Succession::watch(std::string_view sensor, std::int64_t stamp_ns, std::int6
     watched.least_before_ns = std::exchange(watched.least_delay_ns, INT64_MAX);
     watched.period_began_ns = now_ns;
   }
-  watched.least_delay_ns = std::min(watched.least_delay_ns, difference(now_ns, stamp_ns));
+  const std::int64_t delay_ns = difference(now_ns, stamp_ns);
+  watched.least_delay_ns = std::min(watched.least_delay_ns, delay_ns);
+  const std::int64_t least_ns = std::min(watched.least_delay_ns, watched.least_before_ns);
+  const std::int64_t above_ns = std::clamp<std::int64_t>(difference(delay_ns, least_ns), 0, kMostDoubtNs);
+  watched.doubt_ns += (above_ns - watched.doubt_ns) / 64;
 }
 
 bool Succession::may_have_been_served(std::string_view sensor, std::int64_t stamp_ns,
@@ -38,7 +42,7 @@ bool Succession::may_have_been_served(std::string_view sensor, std::int64_t stam
   const Watched& watched = found->second;
   const std::int64_t sent_ns = sum(stamp_ns, std::min(watched.least_delay_ns, watched.least_before_ns));
   const bool before = watched.taken_ns != kNotTaken && now_ns - watched.taken_ns <= kLongestNs &&
-                      sent_ns < watched.taken_ns + kMarginNs;
+                      sent_ns < watched.taken_ns + kMarginNs + watched.doubt_ns;
   if (!before) watched_.erase(found);
   return before;
 }

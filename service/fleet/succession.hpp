@@ -21,8 +21,12 @@ namespace gyrod::fleet {
 /// Times are ns of one steady clock. Allocates for a sensor that was not watched before. One thread at a time.
 class Succession {
  public:
-  /// Two ways through the network differ by less, in the least time they take.
+  /// Two ways through the network differ by less, in the least time they take; and by as much as the delay is above its least in the mean.
+  /// Where packets are lost, one that is missing holds up those behind it, and none may come without delay for as long as this one watches.
   static constexpr std::int64_t kMarginNs = 20'000'000;
+  /// That mean begins here, as a sensor that was hardly watched may have been held up all the time; each sample tells a 64th of it.
+  static constexpr std::int64_t kFirstDoubtNs = 200'000'000;
+  static constexpr std::int64_t kMostDoubtNs = 1'000'000'000;
   /// No sample that arrives later than this after a take-over is left out. Where one packet in five is lost, repairs take seconds.
   static constexpr std::int64_t kLongestNs = 10'000'000'000;
   /// A delay is remembered for one to two of these: a clock that is wrong by 100 ppm goes 6 ms astray.
@@ -53,6 +57,7 @@ class Succession {
   struct Watched {
     std::int64_t least_delay_ns = INT64_MAX;   ///< since period_began_ns
     std::int64_t least_before_ns = INT64_MAX;  ///< in the period before that
+    std::int64_t doubt_ns = kFirstDoubtNs;     ///< mean of what the delay is above its least
     std::int64_t period_began_ns = 0;
     std::int64_t taken_ns = kNotTaken;
   };

@@ -32,7 +32,8 @@ TEST_F(Takeover, LeavesOutWhatWasSentBeforeHoweverLateItArrives) {
   EXPECT_TRUE(left_out(900, 1005));
   EXPECT_TRUE(left_out(990, 1300));
   EXPECT_TRUE(left_out(1010, 1301)) << "in doubt";
-  EXPECT_FALSE(left_out(1030, 1302));
+  EXPECT_TRUE(left_out(1050, 1301)) << "one in seven was 89 ms late, and a second is not long";
+  EXPECT_FALSE(left_out(1100, 1302));
   EXPECT_FALSE(left_out(900, 1303)) << "the watch is over";
 }
 
@@ -50,7 +51,7 @@ TEST_F(Takeover, BeginsAgainWhenItWasGivenUpInBetween) {
   succession_.change(1500 * kMs, [](std::string_view) { return false; });
   succession_.change(1600 * kMs, [](std::string_view) { return true; });
   EXPECT_TRUE(left_out(1590, 1601));
-  EXPECT_FALSE(left_out(1640, 1641));
+  EXPECT_FALSE(left_out(1700, 1701));
 }
 
 TEST(Succession, AClockOfAnotherPaceIsFollowed) {
@@ -62,7 +63,26 @@ TEST(Succession, AClockOfAnotherPaceIsFollowed) {
     succession.watch("imu", slow_stamp(sent), sent * kMs);
   succession.change(kDayMs * kMs, [](std::string_view) { return true; });
   EXPECT_TRUE(succession.may_have_been_served("imu", slow_stamp(kDayMs - 10), (kDayMs + 2000) * kMs));
-  EXPECT_FALSE(succession.may_have_been_served("imu", slow_stamp(kDayMs + 30), (kDayMs + 2001) * kMs));
+  EXPECT_FALSE(succession.may_have_been_served("imu", slow_stamp(kDayMs + 40), (kDayMs + 2001) * kMs));
+}
+
+// The other daemon took it 1 ms after it was sent, and served it; here something before it was always missing, for 60 to 160 ms.
+TEST(Succession, WhereNothingComesWithoutDelayMoreIsLeftOut) {
+  Succession succession;
+  for (std::int64_t sent = 0; sent < 900; sent += 10)
+    succession.watch("imu", stamp_of(sent), (sent + 60 + sent % 110) * kMs);
+  succession.change(1000 * kMs, [](std::string_view) { return true; });
+  EXPECT_TRUE(succession.may_have_been_served("imu", stamp_of(995), 1100 * kMs));
+  EXPECT_FALSE(succession.may_have_been_served("imu", stamp_of(1100), 1200 * kMs));
+}
+
+TEST(Succession, ASensorThatWasHardlySeenMayHaveBeenHeldUp) {
+  Succession succession;
+  for (std::int64_t sent = 900; sent < 940; sent += 10) succession.watch("imu", stamp_of(sent), 990 * kMs);
+  succession.change(1000 * kMs, [](std::string_view) { return true; });
+  EXPECT_TRUE(succession.may_have_been_served("imu", stamp_of(995), 1100 * kMs));
+  EXPECT_TRUE(succession.may_have_been_served("imu", stamp_of(1100), 1150 * kMs));
+  EXPECT_FALSE(succession.may_have_been_served("imu", stamp_of(1200), 1250 * kMs));
 }
 
 TEST(Succession, OfASensorThatNobodyElseServedLeavesOutNothing) {
