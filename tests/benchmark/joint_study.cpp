@@ -4,8 +4,7 @@
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), rivals=1 (0: leaves the Butterworth filters out, which take most of the time), axes=xyz; and the
-// members of core::JointOptions by name.
+// (first sample of the noise), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz; and core::JointOptions' members.
 #include <algorithm>
 #include <array>
 #include <cmath>
