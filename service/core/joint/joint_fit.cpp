@@ -152,7 +152,7 @@ void JointFit::start_mode(std::span<const double> imf, const ImfFigures& figures
   if (slow || mode.drive > 0.0) full_.add(mode);
 }
 
-/// A tone beside others in an IMF makes that IMF's mode no narrower than the fit takes long to find out.
+/// An IMF holds a tone together with much else, and its mode is too wide for it: the tone gets one of its own.
 void JointFit::start_line(const Tone& tone) noexcept {
   if (!(tone.amplitude > 0.0) || full_.full()) return;
   std::array<double, kModeOrder + 1> r{};
