@@ -19,16 +19,27 @@ std::int64_t now_ns() noexcept {
 
 }  // namespace
 
-std::size_t EngineInlet::push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
+std::size_t EngineInlet::push(std::string_view sensor, std::span<const stream::Sample> samples,
+                              Foreign foreign) noexcept {
   const std::lock_guard lock(mutex_);
-  const bool served = rule_.serves(sensor);
-  if (!served && !samples.empty() && holds(rule_.own, sensor))
-    succession_.watch(sensor, samples.back().stamp_ns, now_ns());
-  const std::size_t foreign = served ? served_before(sensor, samples, now_ns()) : samples.size();
-  if (foreign > 0) foreign_.fetch_add(foreign, std::memory_order_relaxed);
-  if (foreign == samples.size()) return 0;
-  tap_.on_raw(sensor, samples.subspan(foreign));
-  return engine_.push(sensor, samples.subspan(foreign));
+  if (rule_.serves(sensor)) return take(sensor, samples);
+  foreign_.fetch_add(samples.size(), std::memory_order_relaxed);
+  if (samples.empty() || !holds(rule_.own, sensor)) return 0;
+  succession_.watch(sensor, samples.back().stamp_ns, now_ns());
+  if (foreign == Foreign::kFollow) understudy_.follow(sensor, samples, now_ns());
+  return 0;
+}
+
+/// Of a sensor that is served here.
+std::size_t EngineInlet::take(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
+  if (understudy_.has_marks()) {
+    if (const auto mark = understudy_.take_mark(sensor, now_ns())) engine_.continue_after(sensor, *mark);
+  }
+  const std::size_t before = served_before(sensor, samples, now_ns());
+  if (before > 0) foreign_.fetch_add(before, std::memory_order_relaxed);
+  if (before == samples.size()) return 0;
+  tap_.on_raw(sensor, samples.subspan(before));
+  return engine_.push(sensor, samples.subspan(before));
 }
 
 /// Samples at the front that the daemon before this one may have served.
@@ -42,6 +53,7 @@ std::size_t EngineInlet::served_before(std::string_view sensor, std::span<const 
 
 void EngineInlet::end(std::string_view sensor) noexcept {
   const std::lock_guard lock(mutex_);
+  understudy_.end(sensor);
   engine_.end_of_stream(sensor);
 }
 
@@ -60,13 +72,43 @@ void EngineInlet::tend() noexcept {
   if (lock.owns_lock()) engine_.tend();
 }
 
-void EngineInlet::serve(const fleet::ServingRule& rule) noexcept {
+std::vector<bus::GivenUp> EngineInlet::serve(const fleet::ServingRule& rule, bool told) noexcept {
   const std::lock_guard lock(mutex_);
+  std::vector<bus::GivenUp> given = given_up_by(rule);
   rule_ = rule;
-  succession_.change(now_ns(), [this](std::string_view sensor) { return rule_.serves(sensor); });
-  for (const stream::ChannelSnapshot& channel : engine_.channels(engine_.options().max_channels)) {
-    if (!rule_.serves(channel.sensor)) engine_.end_of_stream(channel.sensor);
+  const auto now_served = [this](std::string_view sensor) { return rule_.serves(sensor); };
+  if (told) {
+    succession_.settle(now_served);
+    for (const Understudy::Part& part : understudy_.take(now_served, now_ns())) {
+      take(part.sensor, part.samples);
+      if (part.ended) engine_.end_of_stream(part.sensor);
+    }
+  } else {
+    succession_.change(now_ns(), now_served);
+    understudy_.drop(now_served);
   }
+  for (const bus::GivenUp& one : given) engine_.give_up(one.sensor);
+  return given;
+}
+
+std::vector<bus::GivenUp> EngineInlet::served() noexcept {
+  const std::lock_guard lock(mutex_);
+  return given_up_by({.own = rule_.own});
+}
+
+/// What is served now and would not be by that rule.
+std::vector<bus::GivenUp> EngineInlet::given_up_by(const fleet::ServingRule& rule) const {
+  std::vector<bus::GivenUp> given;
+  engine_.visit_channels(engine_.options().max_channels, [&](const stream::ChannelSnapshot& channel) {
+    if (!rule_.serves(channel.sensor) || rule.serves(channel.sensor)) return;
+    if (const auto taken = engine_.taken_up_to(channel.sensor)) given.push_back({channel.sensor, *taken});
+  });
+  return given;
+}
+
+void EngineInlet::heed(std::span<const bus::GivenUp> given) noexcept {
+  const std::lock_guard lock(mutex_);
+  understudy_.note(given, now_ns());
 }
 
 void FeedFromBus::on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
@@ -93,7 +135,8 @@ void FeedFromBus::on_broken_promise(std::string_view sensor, stream::ChannelStat
 }
 
 bool FeedFromRos2::on_sample(std::string_view sensor, const stream::Sample& sample) noexcept {
-  return inlet_.push(sensor, {&sample, 1}) == 1;
+  // What comes before a sensor is served here has no message to leave with.
+  return inlet_.push(sensor, {&sample, 1}, Foreign::kPassOver) == 1;
 }
 
 void FeedFromRos2::on_end(std::string_view sensor) noexcept { inlet_.end(sensor); }

@@ -6,7 +6,11 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include "app/understudy.hpp"
+#include "bus/given_up.hpp"
 #include "bus/imu_subscriber.hpp"
 #include "bus/imu_topics.hpp"
 #include "bus/subscriber.hpp"
@@ -17,12 +21,19 @@
 
 namespace gyrod::app {
 
+/// What becomes of samples of sensors that others serve.
+enum class Foreign {
+  kFollow,    ///< kept for a while, in case this daemon has to go on
+  kPassOver,  ///< not kept
+};
+
 /// The engine takes samples from one thread at a time; gyrod's own topics and those of ROS 2 have a thread each.
 class EngineInlet {
  public:
   EngineInlet(stream::Engine& engine, live::Tap& tap) : engine_(engine), tap_(tap) {}
   /// As Engine::push(), of sensors that are served here.
-  std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
+  std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples,
+                   Foreign foreign = Foreign::kFollow) noexcept;
   void end(std::string_view sensor) noexcept;
   /// As Engine::come_again().
   void come_again(std::string_view sensor) noexcept;
@@ -33,13 +44,22 @@ class EngineInlet {
 
   /// Takes samples of these sensors only from now on; the rest is passed over and counted. What was taken of others before is released,
   /// and their sensors end.
-  void serve(const fleet::ServingRule& rule) noexcept;
+  /// @param told whether heed() was told up to where the sensors that are new here were served: then they go on behind that. Else what may
+  ///   have been served is left out by time.
+  /// @return what is served no more, and up to where it was
+  std::vector<bus::GivenUp> serve(const fleet::ServingRule& rule, bool told) noexcept;
+  /// What is served, and up to where it is.
+  [[nodiscard]] std::vector<bus::GivenUp> served() noexcept;
+  /// Others have served these sensors until now.
+  void heed(std::span<const bus::GivenUp> given) noexcept;
   /// Samples passed over, since others serve their sensors.
   [[nodiscard]] std::uint64_t foreign() const noexcept { return foreign_.load(std::memory_order_relaxed); }
 
  private:
   /// Taken before all others, and held while push() waits for workers: then both threads wait.
   std::mutex mutex_;
+  [[nodiscard]] std::vector<bus::GivenUp> given_up_by(const fleet::ServingRule& rule) const;
+  std::size_t take(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   [[nodiscard]] std::size_t served_before(std::string_view sensor, std::span<const stream::Sample> samples,
                                           std::int64_t now) noexcept;
 
@@ -47,6 +67,7 @@ class EngineInlet {
   live::Tap& tap_;
   fleet::ServingRule rule_{.own = {}, .active = true};
   fleet::Succession succession_;
+  Understudy understudy_;
   std::atomic<std::uint64_t> foreign_{0};
 };
 

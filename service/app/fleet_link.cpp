@@ -4,10 +4,14 @@
 
 namespace gyrod::app {
 
-void FleetLink::on_rule(const fleet::ServingRule& rule) noexcept {
+std::vector<bus::GivenUp> FleetLink::on_rule(const fleet::ServingRule& rule, bool told) noexcept {
   shard_ = text_of(rule.own);
-  inlet_.serve(rule);
+  return inlet_.serve(rule, told);
 }
+
+std::vector<bus::GivenUp> FleetLink::on_leave() noexcept { return inlet_.served(); }
+
+void FleetLink::on_given_up(std::span<const bus::GivenUp> given) noexcept { inlet_.heed(given); }
 
 void FleetLink::on_standing(const fleet::Standing& now) noexcept {
   const fleet::Standing before = last_;  // nothing is told before this daemon is one of them

@@ -12,7 +12,9 @@ namespace gyrod::app {
 class FleetLink final : public bus::FleetHandler {
  public:
   explicit FleetLink(EngineInlet& inlet) : inlet_(inlet) {}
-  void on_rule(const fleet::ServingRule& rule) noexcept override;
+  std::vector<bus::GivenUp> on_rule(const fleet::ServingRule& rule, bool told) noexcept override;
+  std::vector<bus::GivenUp> on_leave() noexcept override;
+  void on_given_up(std::span<const bus::GivenUp> given) noexcept override;
   void on_standing(const fleet::Standing& now) noexcept override;
 
  private:

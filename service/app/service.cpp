@@ -92,6 +92,7 @@ bool Service::stop() {
   keep_noise();
   publisher_.wait_for_acknowledgements(kLastWord);
   imu_topics_.wait_for_acknowledgements(kLastWord);
+  fleet_.wait_for_acknowledgements(kLastWord);
   if (monitor_) monitor_->stop();
   return denoised;
 }

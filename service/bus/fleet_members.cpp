@@ -5,13 +5,17 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "bus/entity.hpp"
+#include "bus/fleet_hand_overs.hpp"
 #include "bus/loan.hpp"
+#include "bus/log.hpp"
+#include "bus/writer_identity.hpp"
 
 namespace gyrod::bus {
 namespace {
@@ -21,54 +25,6 @@ using State = fleet::Roster::State;
 
 dds_duration_t duration_of(double seconds) noexcept {
   return static_cast<dds_duration_t>(seconds * static_cast<double>(DDS_NSECS_IN_SEC));
-}
-
-std::string text_of(const dds_guid_t& guid) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : guid.v) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15U];
-  }
-  return text;
-}
-
-std::string guid_of(dds_entity_t entity) {
-  dds_guid_t guid{};
-  check(dds_get_guid(entity, &guid), "name the writer of denoised samples");
-  return text_of(guid);
-}
-
-/// Sorted; none at all is the partition without a name.
-std::vector<std::string> partitions_of(const dds_qos_t* qos) {
-  std::uint32_t count = 0;
-  char** names = nullptr;
-  std::vector<std::string> partitions;
-  if (dds_qget_partition(qos, &count, &names)) {
-    for (std::uint32_t k = 0; k < count; ++k) {
-      partitions.emplace_back(names[k]);
-      dds_free(names[k]);
-    }
-    dds_free(static_cast<void*>(names));
-  }
-  if (partitions.empty()) partitions.emplace_back();
-  std::ranges::sort(partitions);
-  return partitions;
-}
-
-std::vector<std::string> partitions_of_writer(dds_entity_t writer) {
-  const std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(dds_create_qos(), dds_delete_qos);
-  check(dds_get_qos(writer, qos.get()), "read the QoS of the writer of denoised samples");
-  return partitions_of(qos.get());
-}
-
-std::optional<fleet::Announcement> announcement_of(const dds_qos_t* qos) {
-  void* data = nullptr;
-  std::size_t size = 0;
-  if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) return std::nullopt;
-  const auto told = fleet::parse_announcement({static_cast<const char*>(data), size});
-  dds_free(data);
-  return told;
 }
 
 }  // namespace
@@ -81,7 +37,7 @@ class FleetMembers::Impl {
         times_(times),
         writer_(publisher.denoised_writer()),
         topic_(options.topics.denoised),
-        partitions_(partitions_of_writer(writer_)),
+        partitions_(place_of(writer_)),
         handler_(handler),
         roster_(guid_of(writer_), options.shard.value_or(fleet::Shard{}),
                 options.shard ? State::kListening : State::kActive),
@@ -100,6 +56,7 @@ class FleetMembers::Impl {
     check(dds_waitset_attach(waitset_.get(), news_.get(), 0), "look for other daemons");
     check(dds_waitset_attach(waitset_.get(), programs_.get(), 0), "look for other programs");
     check(tell(""), "announce a shard on topic '" + topic_ + "'");
+    open_hand_overs(options);
   }
 
   ~Impl() { leave(); }
@@ -115,7 +72,14 @@ class FleetMembers::Impl {
     stopping_.store(true, std::memory_order_relaxed);
     (void)dds_waitset_set_trigger(waitset_.get(), true);
     thread_.join();
-    (void)tell("");
+    const std::vector<GivenUp> given = handler_.on_leave();
+    // The message is confirmed before this process ends; discovery's own news may be lost on their way.
+    if (hand_overs_ && !hand_overs_->tell(given, true)) hand_overs_.reset();
+    (void)tell(hand_overs_ ? fleet::text_of_leaving(hand_overs_->told()) : "");
+  }
+
+  void wait_for_acknowledgements(std::chrono::milliseconds timeout) const noexcept {
+    if (hand_overs_) hand_overs_->wait_for_acknowledgements(timeout);
   }
 
   [[nodiscard]] fleet::Standing standing() const noexcept {
@@ -126,12 +90,39 @@ class FleetMembers::Impl {
  private:
   void work() noexcept {
     while (!stopping_.load(std::memory_order_relaxed)) {
-      (void)dds_waitset_wait_until(waitset_.get(), nullptr, 0, next_look_);
+      (void)dds_waitset_wait_until(waitset_.get(), nullptr, 0, next_wake());
       if (meet() && roster_.state() == State::kListening) quiet_since_ = dds_time();
       hear();
+      hear_hand_overs();
       advance();
       settle();
     }
+  }
+
+  void open_hand_overs(const BusOptions& options) {
+    try {
+      hand_overs_.emplace(domain_, for_topic(options, topic_), id_, duration_of(times_.hand_over_s));
+    } catch (const SecurityError& error) {
+      return log(
+          LogLevel::kWarning,
+          std::string(error.what()) + ". Samples may be missing where sensors change hands between daemons");
+    }
+    check(dds_waitset_attach(waitset_.get(), hand_overs_->data_condition(), 0), "hear of hand-overs");
+  }
+
+  void hear_hand_overs() {
+    if (!hand_overs_) return;
+    hand_overs_->take([this](const std::string& id, std::span<const GivenUp> given, bool leaves) {
+      handler_.on_given_up(given);
+      if (!leaves) return;
+      if (left_.size() == fleet::kMostPeers) left_.clear();
+      left_.insert(id);
+      roster_.forget(id);
+    });
+  }
+
+  [[nodiscard]] dds_time_t next_wake() const noexcept {
+    return hand_overs_ ? std::min(next_look_, hand_overs_->waits_until()) : next_look_;
   }
 
   void enter(State state) {
@@ -175,42 +166,64 @@ class FleetMembers::Impl {
   }
 
   void hear_of(const Endpoint& writer, const dds_sample_info_t& info) {
+    const std::string text = info.valid_data ? user_data_of(writer.qos) : "";
+    const auto told = fleet::parse_announcement(text);
     if (!info.valid_data || info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-      const auto gone = ids_.find(info.instance_handle);
-      if (gone == ids_.end()) return;
-      roster_.forget(gone->second);
-      ids_.erase(gone);
-      return;
+      if (!told)
+        let_go(info.instance_handle, fleet::parse_handed(text));  // its last words may come with its end
+      return let_go(info.instance_handle, std::nullopt);
     }
-    if (writer.topic_name != topic_ || partitions_of(writer.qos) != partitions_) return;
+    if (writer.topic_name != topic_ || place_of(writer.qos) != partitions_) return;
     const std::string id = text_of(writer.key);
-    if (id == id_) return;
-    if (const auto told = announcement_of(writer.qos)) {
-      ids_[info.instance_handle] = id;
-      roster_.show(id, *told);
-    } else {
-      roster_.forget(id);
-    }
+    if (id == id_ || left_.contains(id)) return;
+    if (!told) return let_go(info.instance_handle, fleet::parse_handed(text));
+    // By the same news it has given up sensors, perhaps.
+    if (hand_overs_ && told->handed) hand_overs_->expect(id, *told->handed);
+    untold_ = untold_ || !told->handed;
+    ids_[info.instance_handle] = id;
+    roster_.show(id, *told);
+  }
+
+  /// A daemon serves no more. @param handed the hand-overs it has told, where it has left in order
+  void let_go(dds_instance_handle_t writer, std::optional<std::uint64_t> handed) {
+    const auto known = ids_.find(writer);
+    if (known == ids_.end()) return;
+    if (hand_overs_ && handed) hand_overs_->expect(known->second, *handed);
+    if (hand_overs_ && !handed) hand_overs_->forget(known->second);
+    if (!handed && left_.erase(known->second) == 0) untold_ = true;
+    roster_.forget(known->second);
+    ids_.erase(known);
   }
 
   /// First gives up what others are to serve, then says so, then takes what is new: whoever is told that something was given up may
-  /// rely on it.
+  /// rely on it. What is new is taken when all have told how far they were.
   void settle() noexcept {
     const fleet::ServingRule rule = roster_.rule();
-    apply(both(rule_, rule));
+    hand_over(apply(both(rule_, rule), true));
     if (roster_.state() != State::kListening) {
-      const std::string text = text_of(roster_.announcement());
+      fleet::Announcement announcement = roster_.announcement();
+      if (hand_overs_) announcement.handed = hand_overs_->told();
+      const std::string text = text_of(announcement);
       if (text != told_ && tell(text) == DDS_RETCODE_OK) told_ = text;
     }
-    apply(rule);
+    if (!hand_overs_ || !hand_overs_->must_wait(dds_time())) {
+      // Who served before this one began to may be anybody.
+      apply(rule, hand_overs_ && hand_overs_->all_have_told() && !untold_ && rule_.active);
+      untold_ = false;
+    }
     show(roster_.standing());
   }
 
-  void apply(const fleet::ServingRule& rule) noexcept {
-    if (told_handler_ && rule == rule_) return;
+  /// Who cannot tell how far it was says so by not announcing hand-overs any more.
+  void hand_over(const std::vector<GivenUp>& given) noexcept {
+    if (hand_overs_ && !given.empty() && !hand_overs_->tell(given, false)) hand_overs_.reset();
+  }
+
+  std::vector<GivenUp> apply(const fleet::ServingRule& rule, bool told) noexcept {
+    if (told_handler_ && rule == rule_) return {};
     told_handler_ = true;
     rule_ = rule;
-    handler_.on_rule(rule);
+    return handler_.on_rule(rule, told);
   }
 
   void show(const fleet::Standing& standing) noexcept {
@@ -241,14 +254,17 @@ class FleetMembers::Impl {
   bool told_handler_ = false;
   std::string told_;
   std::map<dds_instance_handle_t, std::string> ids_;  ///< of those that announce a shard
-  dds_time_t entered_ = 0;                            ///< the state that the roster is in
-  dds_time_t quiet_since_ = 0;                        ///< nobody new since
+  std::set<std::string> left_;                        ///< have told that they stop, and may still be seen
+  bool untold_ = false;         ///< somebody has stopped to serve, perhaps, and will not tell how far it was
+  dds_time_t entered_ = 0;      ///< the state that the roster is in
+  dds_time_t quiet_since_ = 0;  ///< nobody new since
   dds_time_t next_look_ = DDS_NEVER;
   Entity waitset_;
   Entity publications_;
   Entity news_;
   Entity participants_;
   Entity programs_;
+  std::optional<FleetHandOvers> hand_overs_;  ///< none: our permissions forbid it
   mutable std::mutex standing_mutex_;
   fleet::Standing standing_;
   std::atomic<bool> stopping_{false};
@@ -262,6 +278,9 @@ FleetMembers::~FleetMembers() = default;
 
 void FleetMembers::start() { impl_->start(); }
 void FleetMembers::leave() noexcept { impl_->leave(); }
+void FleetMembers::wait_for_acknowledgements(std::chrono::milliseconds timeout) const noexcept {
+  impl_->wait_for_acknowledgements(timeout);
+}
 fleet::Standing FleetMembers::standing() const noexcept { return impl_->standing(); }
 
 }  // namespace gyrod::bus

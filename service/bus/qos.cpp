@@ -203,6 +203,14 @@ Qos standby_reader_qos(const BusOptions& options) {
   return qos;
 }
 
+Qos hand_over_qos(const BusOptions& options) {
+  constexpr std::size_t kNewest = 16;  // of each daemon
+  Qos qos;
+  qos.reliable(kOutputMaxBlocking).keep_last(kNewest).keep_for_late_joiners(kNewest).no_autodispose();
+  qos.partitions(options.output.partitions);
+  return qos;
+}
+
 Qos recorder_qos(Reliability reliability, const std::vector<std::string>& partitions, bool exclusive,
                  const BusOptions& options) {
   Qos qos;

@@ -84,6 +84,8 @@ class Qos {
 [[nodiscard]] Qos report_writer_qos(const BusOptions& options);
 /// A daemon's reader of what others of the same output publish: the newest of every sensor.
 [[nodiscard]] Qos standby_reader_qos(const BusOptions& options);
+/// Writer and reader of what daemons tell one another when sensors change hands: a daemon that comes later gets the newest, too.
+[[nodiscard]] Qos hand_over_qos(const BusOptions& options);
 /// The reader of `record`: keeps all, as a recording must not drop what was received. Asks for nothing else.
 /// @param exclusive whether the topic's writers have exclusive ownership
 [[nodiscard]] Qos recorder_qos(Reliability reliability, const std::vector<std::string>& partitions,

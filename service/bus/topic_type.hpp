@@ -35,6 +35,10 @@ struct TopicType<gyrod_HealthReport> {
   static constexpr const dds_topic_descriptor_t* kDescriptor = &gyrod_HealthReport_desc;
 };
 template <>
+struct TopicType<gyrod_HandOver> {
+  static constexpr const dds_topic_descriptor_t* kDescriptor = &gyrod_HandOver_desc;
+};
+template <>
 struct TopicType<sensor_msgs_msg_dds__Imu_> {
   static constexpr const dds_topic_descriptor_t* kDescriptor = &sensor_msgs_msg_dds__Imu__desc;
 };

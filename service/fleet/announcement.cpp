@@ -1,6 +1,7 @@
 #include "fleet/announcement.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace gyrod::fleet {
 namespace {
@@ -10,6 +11,7 @@ constexpr std::string_view kState = "gyrod.state=";
 constexpr std::string_view kYields = "gyrod.yields=";
 constexpr std::string_view kGreets = "gyrod.greets=";
 constexpr std::string_view kAwaits = "gyrod.awaits=";
+constexpr std::string_view kHanded = "gyrod.handed=";
 
 /// What stands before the next separator; `text` then begins behind it.
 std::string_view cut(std::string_view& text, char separator) {
@@ -43,12 +45,30 @@ std::vector<std::string> ids_in(std::string_view list) {
 std::string text_of(const Announcement& announcement) {
   return std::string(kShard) + text_of(announcement.shard) + ";" + std::string(kState) +
          (announcement.active ? "active" : "joining") + ";" + list_of(kYields, announcement.yields_to) +
-         list_of(kGreets, announcement.greets) + list_of(kAwaits, announcement.awaits);
+         list_of(kGreets, announcement.greets) + list_of(kAwaits, announcement.awaits) +
+         (announcement.handed ? text_of_leaving(*announcement.handed) : "");
+}
+
+std::string text_of_leaving(std::uint64_t handed) {
+  return std::string(kHanded) + std::to_string(handed) + ";";
+}
+
+std::optional<std::uint64_t> parse_handed(std::string_view text) {
+  while (!text.empty()) {
+    const auto value = value_of(cut(text, ';'), kHanded);
+    if (!value) continue;
+    std::uint64_t handed = 0;
+    const auto [end, error] = std::from_chars(value->begin(), value->end(), handed);
+    if (error != std::errc{} || end != value->end()) return std::nullopt;
+    return handed;
+  }
+  return std::nullopt;
 }
 
 std::optional<Announcement> parse_announcement(std::string_view text) {
   std::optional<Shard> shard;
   Announcement read;
+  read.handed = parse_handed(text);
   while (!text.empty()) {
     const std::string_view entry = cut(text, ';');
     if (const auto value = value_of(entry, kShard)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <iterator>
 
 namespace gyrod::fleet {
 
@@ -14,7 +15,8 @@ bool ServingRule::serves(std::string_view sensor) const noexcept {
 ServingRule both(const ServingRule& a, const ServingRule& b) {
   assert(a.own == b.own);
   ServingRule rule{a.own, a.active && b.active, a.left};
-  rule.left.insert(rule.left.end(), b.left.begin(), b.left.end());
+  std::ranges::copy_if(b.left, std::back_inserter(rule.left),
+                       [&a](const Shard& shard) { return std::ranges::find(a.left, shard) == a.left.end(); });
   return rule;
 }
 

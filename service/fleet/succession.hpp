@@ -46,6 +46,12 @@ class Succession {
     }
   }
 
+  /// Of the sensors that are served now another has told where it has stopped: nothing of them is left out by time.
+  template <class NowServed>
+  void settle(const NowServed& now_served) {
+    std::erase_if(watched_, [&](const auto& entry) { return now_served(std::string_view(entry.first)); });
+  }
+
   /// Whether the sample, of a sensor that this daemon serves, may have been served before. Samples come in order; the first that was not
   /// ends the watch.
   [[nodiscard]] bool may_have_been_served(std::string_view sensor, std::int64_t stamp_ns,

@@ -162,7 +162,7 @@ void add_fleet_metrics(const FleetSnapshot& fleet, Families& families) {
   add(families, kCounter, "gyrod_shard_disputes_total",
       "Times a daemon turned up that may have served the same sensors at the same time.", fleet.disputes);
   add(families, kCounter, "gyrod_shard_foreign_samples_total",
-      "Samples passed over, since other daemons serve their sensors.", fleet.foreign_samples);
+      "Samples that came while other daemons served their sensors.", fleet.foreign_samples);
 }
 
 void add_state_file_metrics(std::uint64_t errors, Families& families) {

@@ -65,6 +65,10 @@ class Channel {
   void lose_sight(double now_s) noexcept;
   /// What had been seen may come once more.
   void expect_history() noexcept;
+  /// Another process has served the sensor up to the mark: what comes of that is history.
+  void continue_after(const PublishedMark& mark) noexcept;
+  /// The newest sample that this process has taken, or that it knows to have been taken elsewhere.
+  [[nodiscard]] std::optional<PublishedMark> taken_up_to() const noexcept;
   /// Whether the sample was published before this start (EngineOptions::published_before), or comes once more.
   [[nodiscard]] bool is_history(const Sample& sample) noexcept;
   /// From now on nothing is history.
@@ -145,6 +149,10 @@ class Channel {
   [[nodiscard]] ChannelSnapshot snapshot() const;
 
  private:
+  /// What a sensor keeps comes at once when it is found. A sensor that began anew with number and clock while nobody looked seems to send
+  /// history, too; it is not taken for that any longer.
+  static constexpr double kLongestHistory_s = 10.0;
+
   void take_block(const RestEvidence& rest);
   void look_for_history(double now_s);
   [[nodiscard]] std::optional<PublishedMark> last_published() const noexcept;
@@ -168,6 +176,7 @@ class Channel {
   std::optional<double> heard_again_s_;            ///< when that silence ended; the intake's alone
   std::optional<PublishedMark> seen_;              ///< the intake's alone
   std::optional<double> history_until_s_;          ///< the intake's alone
+  double history_lasts_s_ = kLongestHistory_s;     ///< the intake's alone
   std::optional<PublishedMark> published_before_;  ///< the intake's alone
   std::optional<ModelOrigin> offered_;
   std::uint32_t hop_samples_ = 0;

@@ -6,9 +6,9 @@
 namespace gyrod::stream {
 namespace {
 
-/// What a sensor keeps comes at once when it is found. A sensor that began anew with number and clock while nobody looked seems to send
-/// history, too; it is not taken for that any longer.
-constexpr double kLongestHistory_s = 10.0;
+/// Another process has told how far it has served the sensor. Where the network loses packets the same samples reach two hosts at times
+/// that are many seconds apart.
+constexpr double kLongestHandOver_s = 60.0;
 /// A sensor that was not heard for so long may have been out of sight: DDS's leases are longer.
 constexpr double kOutOfSight_s = 1.0;
 /// A process that goes on after a pause takes what has waited, and is told within this time whom it has lost meanwhile.
@@ -42,6 +42,19 @@ std::optional<PublishedMark> Channel::last_published() const noexcept {
 void Channel::expect_history() noexcept {
   published_before_ = seen_;
   history_until_s_.reset();
+  history_lasts_s_ = kLongestHistory_s;
+}
+
+void Channel::continue_after(const PublishedMark& mark) noexcept {
+  if (!published_before_ || published_before_->sequence <= mark.sequence) published_before_ = mark;
+  history_until_s_.reset();
+  history_lasts_s_ = kLongestHandOver_s;
+}
+
+std::optional<PublishedMark> Channel::taken_up_to() const noexcept {
+  if (published_before_ || ring.end() == 0) return published_before_;
+  const Sample newest = ring.at(ring.end() - 1);
+  return PublishedMark{newest.sequence, newest.stamp_ns};
 }
 
 bool Channel::is_history(const Sample& sample) noexcept {
@@ -59,7 +72,7 @@ void Channel::look_for_history(double now_s) {
     heard_again_s_ = now_s;
   }
   if (!published_before_) return;
-  if (!history_until_s_) history_until_s_ = now_s + kLongestHistory_s;
+  if (!history_until_s_) history_until_s_ = now_s + history_lasts_s_;
   if (now_s > *history_until_s_) end_history();
 }
 

@@ -217,6 +217,13 @@ std::size_t Engine::push(std::string_view sensor, std::span<const Sample> sample
   return impl_->push(sensor, samples);
 }
 void Engine::end_of_stream(std::string_view sensor) noexcept { impl_->end_of_stream(sensor); }
+void Engine::give_up(std::string_view sensor) noexcept { impl_->give_up(sensor); }
+std::optional<PublishedMark> Engine::taken_up_to(std::string_view sensor) const noexcept {
+  return impl_->taken_up_to(sensor);
+}
+void Engine::continue_after(std::string_view sensor, const PublishedMark& mark) noexcept {
+  impl_->continue_after(sensor, mark);
+}
 void Engine::come_again(std::string_view sensor) noexcept { impl_->come_again(sensor); }
 void Engine::fall_silent(std::string_view sensor, ChannelState why) noexcept {
   impl_->fall_silent(sensor, why);

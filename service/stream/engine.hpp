@@ -122,6 +122,19 @@ class Engine {
   /// to be taken while this process stood still.
   void come_again(std::string_view sensor) noexcept;
 
+  /// Another process serves the sensor from now on: as end_of_stream(), and what that one serves is not missing when the sensor is
+  /// served here again.
+  void give_up(std::string_view sensor) noexcept;
+
+  /// The newest sample of the sensor that was accepted here, or published before (EngineOptions::published_before, continue_after());
+  /// none if there is none. By the thread that pushes.
+  [[nodiscard]] std::optional<PublishedMark> taken_up_to(std::string_view sensor) const noexcept;
+
+  /// Another process has served the sensor until now, and has accepted its samples up to the mark: where they come, in the minute from the
+  /// sensor's next samples on, they fill the window and do not leave, as with EngineOptions::published_before. Opens a channel for a new
+  /// sensor; nothing where that is refused.
+  void continue_after(std::string_view sensor, const PublishedMark& mark) noexcept;
+
   /// The bus tells that the sensor does not send though it should: what tend() does of a silent sensor, at once. Where it has ended, only
   /// its state says why; nothing where it is silent already. @pre why is kDeadlineMissed or kLivelinessLost
   void fall_silent(std::string_view sensor, ChannelState why) noexcept;

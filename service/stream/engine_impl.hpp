@@ -29,6 +29,9 @@ class Engine::Impl {
   std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
   void end_of_stream(std::string_view sensor) noexcept;
   void come_again(std::string_view sensor) noexcept;
+  void give_up(std::string_view sensor) noexcept;
+  [[nodiscard]] std::optional<PublishedMark> taken_up_to(std::string_view sensor) const noexcept;
+  void continue_after(std::string_view sensor, const PublishedMark& mark) noexcept;
   void fall_silent(std::string_view sensor, ChannelState why) noexcept;
   void tend() noexcept;
   void judge_health();

@@ -160,6 +160,21 @@ void Engine::Impl::come_again(std::string_view sensor) noexcept {
   channel->expect_history();
 }
 
+void Engine::Impl::give_up(std::string_view sensor) noexcept {
+  end_of_stream(sensor);
+  if (Channel* channel = registry_.find(sensor)) channel->gate.forget();
+}
+
+std::optional<PublishedMark> Engine::Impl::taken_up_to(std::string_view sensor) const noexcept {
+  const Channel* channel = registry_.find(sensor);
+  return channel != nullptr ? channel->taken_up_to() : std::nullopt;
+}
+
+void Engine::Impl::continue_after(std::string_view sensor, const PublishedMark& mark) noexcept {
+  RejectReason refusal{};
+  if (Channel* channel = channel_for(sensor, refusal)) channel->continue_after(mark);
+}
+
 void Engine::Impl::tend() noexcept {
   if (stopping_) return;
   const double now_s = clock_();

@@ -51,6 +51,11 @@ void SampleGate::reopen() noexcept {
   refused_ahead_ = 0;
 }
 
+void SampleGate::forget() noexcept {
+  reopen();
+  ever_open_ = false;
+}
+
 std::optional<RejectReason> SampleGate::unfit(const Sample& sample) const noexcept {
   for (const double rate : sample.rate_radps) {
     if (!std::isfinite(rate)) return RejectReason::kNotFinite;

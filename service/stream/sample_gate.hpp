@@ -59,6 +59,8 @@ class SampleGate {
   /// The sensor has ended: the next sample is taken, whatever its number and stamp, and begins a new window. Where both go on as if it had
   /// sent all the time, what lies between is missing; the period is kept.
   void reopen() noexcept;
+  /// As reopen(), and what lies between is not missing: others have taken it.
+  void forget() noexcept;
 
   /// True once a sample was accepted since the beginning or since reopen().
   [[nodiscard]] bool is_open() const noexcept { return open_; }

@@ -38,14 +38,6 @@ void expect_none_twice(const Sequences& all) {
     EXPECT_EQ(std::ranges::adjacent_find(sequences), sequences.end()) << sensor << ": a number came twice";
 }
 
-std::size_t numbers_twice(const Sequences& all) {
-  std::size_t count = 0;
-  for (const auto& [sensor, sequences] : all) {
-    for (std::size_t k = 1; k < sequences.size(); ++k) count += sequences[k] == sequences[k - 1] ? 1U : 0U;
-  }
-  return count;
-}
-
 std::string sensor_name(std::size_t number) { return "imu_" + std::to_string(number); }
 
 std::size_t sensors_in(const fleet::Shard& shard) {
@@ -150,7 +142,7 @@ struct Change {
 class WhileTheCountChanges : public Shards, public ::testing::WithParamInterface<Change> {};
 
 /// One daemon without a shard; then 2/2 beside it; then 1/2; then 2/2 ends, and the first takes what it leaves.
-TEST_P(WhileTheCountChanges, NoSampleComesTwiceAndTheHolesAreAsPromised) {
+TEST_P(WhileTheCountChanges, EachSampleComesOnceButForWhatAKilledDaemonHeld) {
   const auto [loss, lease_s, end] = GetParam();
   lease_s_ = lease_s;
   const auto alone = start_shard(2, "", loss);
@@ -184,20 +176,9 @@ TEST_P(WhileTheCountChanges, NoSampleComesTwiceAndTheHolesAreAsPromised) {
 
   const Sequences all = sorted_sequences(path("out.csv"));
   EXPECT_EQ(all.size(), kSensors);
-  if (loss == 0) {
-    expect_none_twice(all);
-    EXPECT_EQ(disputes, 0.0);
-  }
-  RecordProperty("disputes", static_cast<int>(disputes));
-  RecordProperty("numbers_twice", static_cast<int>(numbers_twice(all)));
+  expect_none_twice(all);
+  EXPECT_EQ(disputes, 0.0);
   for (const auto& [sensor, sequences] : all) {
-    if (std::ranges::adjacent_find(sequences) != sequences.end()) {
-      // Discovery itself came late: said, and only for that moment.
-      EXPECT_GT(disputes, 0.0) << sensor;
-      continue;
-    }
-    // Handed over once; those of 2/2 once more at its end.
-    const bool twice = fleet::holds({2, 2}, sensor);
     std::uint64_t holes = 0;
     std::uint64_t longest = 0;
     for (std::size_t k = 1; k < sequences.size(); ++k) {
@@ -205,12 +186,13 @@ TEST_P(WhileTheCountChanges, NoSampleComesTwiceAndTheHolesAreAsPromised) {
       holes += hole > 0 ? 1U : 0U;
       longest = std::max(longest, hole);
     }
-    EXPECT_LE(holes, twice ? 2U : 1U) << sensor;
     RecordProperty("longest_hole_" + sensor, static_cast<int>(longest));
-    // Bounds of docs/fleet.md, and a second for a machine that is busy with other things. What a daemon that is killed held is lost, and
-    // what comes until its lease has ended. Where packets are lost, so are those that tell who gives up what.
-    const double promised_s = twice && end == SIGKILL ? lease_s + 1.0 : loss > 0 ? 4.0 : 1.0;
-    EXPECT_LE(static_cast<double>(longest) / kRateHz, promised_s + 1.0) << sensor;
+    // Bounds of docs/fleet.md: who is stopped or yields hands over. What a daemon that is killed held is lost, and what comes until its
+    // lease has ended; a second for a machine that is busy with other things. At 20 % loss a daemon that joins may not hear a sensor yet.
+    const bool killed = end == SIGKILL && fleet::holds({2, 2}, sensor);
+    const bool deaf = loss >= 200;
+    EXPECT_LE(holes, killed ? 1U : deaf ? 2U : 0U) << sensor;
+    EXPECT_LE(static_cast<double>(longest) / kRateHz, killed ? lease_s + 2.0 : deaf ? 5.0 : 0.0) << sensor;
   }
 }
 
@@ -220,6 +202,7 @@ std::string name_of(const ::testing::TestParamInfo<Change>& change) {
 }
 INSTANTIATE_TEST_SUITE_P(Shards, WhileTheCountChanges,
                          ::testing::Values(Change{0, 2.0, SIGKILL}, Change{0, 10.0, SIGTERM},
+                                           Change{10, 10.0, SIGTERM}, Change{50, 10.0, SIGTERM},
                                            Change{200, 10.0, SIGTERM}),
                          name_of);
 

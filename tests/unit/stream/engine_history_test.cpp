@@ -81,6 +81,64 @@ TEST_P(EngineWithHistory, TakesNothingForHistoryThatComesLongAfterTheSensorsFirs
   EXPECT_EQ(engine.push("imu", counting_samples(10, 20)), 10U);
 }
 
+// The expected bits are those of an engine that served the sensor all the time.
+TEST_P(EngineWithHistory, GoesOnBehindTheMarkOfTheProcessThatServedBefore) {
+  RecordingSink whole;
+  RecordingSink second;
+  Engine one(small_options(2), method(), whole);
+  Engine other(small_options(2), method(), second);
+  one.push("imu", noisy_samples(kAll));
+  other.continue_after("imu", mark_at(kHistory - 1));
+  EXPECT_EQ(other.push("imu", noisy_samples(kAll)), kAll - kHistory);
+  one.stop(std::chrono::seconds{60});
+  other.stop(std::chrono::seconds{60});
+  EXPECT_TRUE(same_bits(second.samples("imu"), from(whole.samples("imu"), kHistory)));
+  expect_conserved(other.snapshot().totals);
+}
+
+TEST_P(EngineWithHistory, TellsUpToWhereItHasTakenASensor) {
+  RecordingSink sink;
+  Engine engine(small_options(0), method(), sink);
+  EXPECT_FALSE(engine.taken_up_to("imu").has_value());
+  engine.push("imu", counting_samples(100));
+  EXPECT_EQ(engine.taken_up_to("imu")->sequence, 99U);
+  EXPECT_EQ(engine.taken_up_to("imu")->stamp_ns, sample_at(99).stamp_ns);
+  engine.end_of_stream("imu");
+  EXPECT_EQ(engine.taken_up_to("imu")->sequence, 99U);
+  engine.continue_after("imu", mark_at(150));
+  engine.push("imu", counting_samples(10, 100));
+  EXPECT_EQ(engine.taken_up_to("imu")->sequence, 150U) << "another one has taken that already";
+  engine.push("imu", counting_samples(60, 110));
+  EXPECT_EQ(engine.taken_up_to("imu")->sequence, 169U);
+  engine.stop(std::chrono::seconds{60});
+  EXPECT_EQ(sink.samples("imu").size(), 100U + 19U);
+}
+
+// A second that was served elsewhere, and a sample that nobody has.
+TEST_P(EngineWithHistory, MissesNothingOfASensorThatOthersServedMeanwhile) {
+  RecordingSink sink;
+  Engine engine(small_options(0), method(), sink);
+  engine.push("imu", counting_samples(100));
+  engine.give_up("imu");
+  EXPECT_EQ(sink.samples("imu").size(), 100U) << "what was taken leaves";
+  engine.push("imu", counting_samples(100, 200));
+  EXPECT_EQ(engine.snapshot().totals.missing, 0U);
+  engine.push("imu", counting_samples(10, 301));
+  EXPECT_EQ(engine.snapshot().totals.missing, 1U);
+}
+
+TEST_P(EngineWithHistory, WaitsAMinuteForWhatComesLateOfThatBeforeTheMark) {
+  std::atomic<double> now_s{0.0};
+  RecordingSink sink;
+  Engine engine(small_options(0), method(), sink, [&now_s] { return now_s.load(); });
+  engine.continue_after("imu", mark_at(kHistory - 1));
+  EXPECT_EQ(engine.push("imu", counting_samples(10)), 0U);
+  now_s = 59.9;
+  EXPECT_EQ(engine.push("imu", counting_samples(10, 10)), 0U);
+  now_s = 60.1;
+  EXPECT_EQ(engine.push("imu", counting_samples(10, 20)), 10U);
+}
+
 /// A clock that a test sets.
 class EngineThatLosesSight : public EngineWithHistory {
  protected:
