@@ -19,27 +19,27 @@ std::int64_t now_ns() noexcept {
 
 }  // namespace
 
-std::size_t EngineInlet::push(std::string_view sensor, std::span<const stream::Sample> samples,
-                              Foreign foreign) noexcept {
+bus::Fate EngineInlet::push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
   const std::lock_guard lock(mutex_);
   if (rule_.serves(sensor)) return take(sensor, samples);
   foreign_.fetch_add(samples.size(), std::memory_order_relaxed);
-  if (samples.empty() || !holds(rule_.own, sensor)) return 0;
-  succession_.watch(sensor, samples.back().stamp_ns, now_ns());
-  if (foreign == Foreign::kFollow) understudy_.follow(sensor, samples, now_ns());
-  return 0;
+  if (samples.empty() || !holds(rule_.own, sensor)) return bus::Fate::kDoesNot;
+  const std::int64_t now = now_ns();
+  succession_.watch(sensor, samples.back().stamp_ns, now);
+  understudy_.follow(sensor, samples, now);
+  return bus::Fate::kMayLeave;
 }
 
 /// Of a sensor that is served here.
-std::size_t EngineInlet::take(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
+bus::Fate EngineInlet::take(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {
   if (understudy_.has_marks()) {
     if (const auto mark = understudy_.take_mark(sensor, now_ns())) engine_.continue_after(sensor, *mark);
   }
   const std::size_t before = served_before(sensor, samples, now_ns());
   if (before > 0) foreign_.fetch_add(before, std::memory_order_relaxed);
-  if (before == samples.size()) return 0;
+  if (before == samples.size()) return bus::Fate::kDoesNot;
   tap_.on_raw(sensor, samples.subspan(before));
-  return engine_.push(sensor, samples.subspan(before));
+  return engine_.push(sensor, samples.subspan(before)) > 0 ? bus::Fate::kLeaves : bus::Fate::kDoesNot;
 }
 
 /// Samples at the front that the daemon before this one may have served.
@@ -134,9 +134,8 @@ void FeedFromBus::on_broken_promise(std::string_view sensor, stream::ChannelStat
   if (!imu_topics_.claims(sensor)) inlet_.fall_silent(sensor, why);
 }
 
-bool FeedFromRos2::on_sample(std::string_view sensor, const stream::Sample& sample) noexcept {
-  // What comes before a sensor is served here has no message to leave with.
-  return inlet_.push(sensor, {&sample, 1}, Foreign::kPassOver) == 1;
+bus::Fate FeedFromRos2::on_sample(std::string_view sensor, const stream::Sample& sample) noexcept {
+  return inlet_.push(sensor, {&sample, 1});
 }
 
 void FeedFromRos2::on_end(std::string_view sensor) noexcept { inlet_.end(sensor); }

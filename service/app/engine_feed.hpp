@@ -21,19 +21,13 @@
 
 namespace gyrod::app {
 
-/// What becomes of samples of sensors that others serve.
-enum class Foreign {
-  kFollow,    ///< kept for a while, in case this daemon has to go on
-  kPassOver,  ///< not kept
-};
-
 /// The engine takes samples from one thread at a time; gyrod's own topics and those of ROS 2 have a thread each.
 class EngineInlet {
  public:
   EngineInlet(stream::Engine& engine, live::Tap& tap) : engine_(engine), tap_(tap) {}
-  /// As Engine::push(), of sensors that are served here.
-  std::size_t push(std::string_view sensor, std::span<const stream::Sample> samples,
-                   Foreign foreign = Foreign::kFollow) noexcept;
+  /// As Engine::push(), of sensors that are served here; what comes of others that may come here is kept for a while.
+  /// @return what becomes of the last sample
+  bus::Fate push(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   void end(std::string_view sensor) noexcept;
   /// As Engine::come_again().
   void come_again(std::string_view sensor) noexcept;
@@ -59,7 +53,7 @@ class EngineInlet {
   /// Taken before all others, and held while push() waits for workers: then both threads wait.
   std::mutex mutex_;
   [[nodiscard]] std::vector<bus::GivenUp> given_up_by(const fleet::ServingRule& rule) const;
-  std::size_t take(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
+  bus::Fate take(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   [[nodiscard]] std::size_t served_before(std::string_view sensor, std::span<const stream::Sample> samples,
                                           std::int64_t now) noexcept;
 
@@ -94,7 +88,7 @@ class FeedFromBus final : public bus::SampleHandler {
 class FeedFromRos2 final : public bus::ImuHandler {
  public:
   explicit FeedFromRos2(EngineInlet& inlet) : inlet_(inlet) {}
-  [[nodiscard]] bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override;
+  [[nodiscard]] bus::Fate on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override;
   void on_end(std::string_view sensor) noexcept override;
   void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override;
   void on_topic(std::string_view topic, const ros2::Outputs& outputs) noexcept override;

@@ -3,6 +3,8 @@
 
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +32,20 @@ class HeldMessages {
     slot.message = message;
     slot.frame_id = frame_id_of(message);
     slot.message.header.frame_id = slot.frame_id.data();
+    slot.may_stay = false;
   }
+
+  /// The one with that stamp, looked for from the newest on; none if it is not there. Valid as the newest is.
+  [[nodiscard]] const Imu* find(std::int64_t stamp_ns) const noexcept {
+    const auto slot = slot_of(stamp_ns);
+    return slot ? &slots_[*slot].message : nullptr;
+  }
+  /// Nobody misses the one with that stamp if it is never published.
+  void let_stay(std::int64_t stamp_ns) noexcept {
+    if (const auto slot = slot_of(stamp_ns)) slots_[*slot].may_stay = true;
+  }
+  /// Whether that is so of the oldest. @pre size() > 0
+  [[nodiscard]] bool oldest_may_stay() const noexcept { return slots_[first_].may_stay; }
 
   /// The oldest and the newest, valid until dropped; so is the frame id that a copy points to. @pre size() > 0
   [[nodiscard]] const Imu& oldest() const noexcept { return slots_[first_].message; }
@@ -57,7 +72,16 @@ class HeldMessages {
   struct Slot {
     Imu message{};
     std::string frame_id;  ///< what message.header.frame_id points to
+    bool may_stay = false;
   };
+
+  [[nodiscard]] std::optional<std::size_t> slot_of(std::int64_t stamp_ns) const noexcept {
+    for (std::size_t k = size_; k > 0; --k) {
+      const std::size_t slot = (first_ + k - 1) % slots_.size();
+      if (stamp_ns_of(slots_[slot].message) == stamp_ns) return slot;
+    }
+    return std::nullopt;
+  }
 
   std::vector<Slot> slots_;
   std::size_t first_ = 0;

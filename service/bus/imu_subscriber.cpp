@@ -151,7 +151,10 @@ class ImuSubscriber::Impl {
 
   void receive(ImuTopic& topic, const Imu& message) noexcept {
     if (!topic.hold(message)) return;
-    if (!handler_.on_sample(topic.name(), sample_of(message))) topic.give_up_newest();
+    const stream::Sample sample = sample_of(message);
+    const Fate fate = handler_.on_sample(topic.name(), sample);
+    if (fate == Fate::kDoesNot) topic.give_up_newest();
+    if (fate == Fate::kMayLeave) topic.let_stay(sample.stamp_ns);
   }
 
   /// A publisher may never pause: no more than a cache of each topic.

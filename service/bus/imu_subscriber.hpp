@@ -10,13 +10,20 @@
 
 namespace gyrod::bus {
 
+/// What becomes of a sample that was handed over.
+enum class Fate {
+  kLeaves,    ///< is published once, in order
+  kMayLeave,  ///< so it is if this daemon takes the sensor over in time; another serves it now
+  kDoesNot,   ///< is not
+};
+
 /// Where received messages go. Called by the subscriber's thread only.
 class ImuHandler {
  public:
   virtual ~ImuHandler() = default;
   /// The newest sample of a sensor; its message waits in ImuTopics. @param sensor the topic's name, valid during the call
-  /// @return whether it was accepted: then it is published once, in order; else its message is given up
-  [[nodiscard]] virtual bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept = 0;
+  /// @return what becomes of it, and so of its message
+  [[nodiscard]] virtual Fate on_sample(std::string_view sensor, const stream::Sample& sample) noexcept = 0;
   /// The last publisher that sent a message has gone. Comes after the last of its samples, once until samples come again.
   virtual void on_end(std::string_view sensor) noexcept = 0;
   /// A publisher did not keep what it promised (Ros2Options::input). @param why kDeadlineMissed, or, after on_end(), kLivelinessLost

@@ -27,6 +27,7 @@ bool ImuTopic::hold(const Imu& message) noexcept {
     ++counts_.malformed;
     return false;
   }
+  if (held_.full() && held_.oldest_may_stay()) held_.drop_oldest();
   if (held_.full()) {
     ++counts_.dropped;
     return false;
@@ -40,12 +41,17 @@ void ImuTopic::give_up_newest() noexcept {
   held_.drop_newest();
 }
 
+void ImuTopic::let_stay(std::int64_t stamp_ns) noexcept {
+  const std::lock_guard lock(mutex_);
+  held_.let_stay(stamp_ns);
+}
+
 void ImuTopic::publish(std::span<const stream::DenoisedSample> samples) noexcept {
   const std::lock_guard lock(mutex_);
   for (const stream::DenoisedSample& sample : samples) {
     while (held_.size() > 0 && stamp_ns_of(held_.oldest()) != sample.stamp_ns) {
+      if (!held_.oldest_may_stay()) ++counts_.dropped;
       held_.drop_oldest();
-      ++counts_.dropped;
     }
     if (held_.size() == 0) continue;
     denoised_.publish(held_.oldest(), sample);
@@ -57,10 +63,10 @@ void ImuTopic::publish(std::span<const stream::DenoisedSample> samples) noexcept
 void ImuTopic::publish_realtime(std::span<const stream::DenoisedSample> samples) noexcept {
   const std::lock_guard lock(mutex_);
   for (const stream::DenoisedSample& sample : samples) {
-    if (held_.size() == 0 || stamp_ns_of(held_.newest()) != sample.stamp_ns) {
-      ++counts_.dropped;
+    if (const Imu* message = held_.find(sample.stamp_ns)) {
+      realtime_->publish(*message, sample);
     } else {
-      realtime_->publish(held_.newest(), sample);
+      ++counts_.dropped;
     }
   }
   realtime_->flush();

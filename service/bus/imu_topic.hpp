@@ -28,7 +28,7 @@ struct ImuCounts {
 /// Reads one topic and writes its outputs. What gyrod does not denoise of a message waits here until its rates are known: the engine
 /// releases each sample that it accepted once and in order, so those that wait are the messages of exactly those samples.
 ///
-/// take(), hold() and give_up_newest() belong to one thread; everything else is for any.
+/// take(), hold(), give_up_newest() and let_stay() belong to one thread; everything else is for any.
 class ImuTopic {
  public:
   /// @throws BusError naming topic, QoS and DDS's answer
@@ -46,10 +46,12 @@ class ImuTopic {
   [[nodiscard]] bool hold(const Imu& message) noexcept;
   /// The engine did not accept the newest.
   void give_up_newest() noexcept;
+  /// Another daemon serves the sensor: the message with that stamp is published only if this one takes over in time.
+  void let_stay(std::int64_t stamp_ns) noexcept;
 
   /// Writes the messages that waited for these samples, with their rates. Does not wait for readers.
   void publish(std::span<const stream::DenoisedSample> samples) noexcept;
-  /// Writes the newest message with rates estimated without look-ahead; it waits on. Comes while the engine is given that message.
+  /// Writes messages with rates estimated without look-ahead; they wait on. Comes while the engine is given them.
   void publish_realtime(std::span<const stream::DenoisedSample> samples) noexcept;
 
   /// As ImuOutput::tend(), of both outputs.

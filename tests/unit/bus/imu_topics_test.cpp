@@ -25,12 +25,13 @@ using testing::ImuPublisher;
 using testing::ImuSubscription;
 using ::testing::IsEmpty;
 
-/// Accepts what is not negative on x.
+/// Accepts what is not negative on x; what is negative on y another daemon serves.
 class Handler final : public ImuHandler {
  public:
-  bool on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override {
+  Fate on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override {
     collector_.add(sensor, {&sample, 1});
-    return sample.rate_radps[0] >= 0.0;
+    if (sample.rate_radps[0] < 0.0) return Fate::kDoesNot;
+    return sample.rate_radps[1] < 0.0 ? Fate::kMayLeave : Fate::kLeaves;
   }
   void on_end(std::string_view sensor) noexcept override { collector_.end(sensor); }
   void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override {
@@ -130,6 +131,35 @@ TEST_P(ImuTopicsTest, NoMoreMessagesWaitThanThereIsRoomForAndTheRestIsCounted) {
   wait_until([&] { return topics.snapshot().dropped_messages == 4; });
   EXPECT_EQ(topics.snapshot().malformed_messages, 1U);
   EXPECT_EQ(handler_.collector().samples(topic("imu")).size(), 4U);
+}
+
+TEST_P(ImuTopicsTest, WhatAnotherDaemonServesWaitsWhileThereIsRoomAndIsNotMissed) {
+  options_.ros2.topics = {topic("imu")};
+  options_.ros2.max_held_messages = 4;
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  subscriber.start();
+  ImuSubscription output(writer_domain_.participant(), topic("imu_denoised"));
+  ImuSubscription realtime(writer_domain_.participant(), topic("imu_realtime"));
+  ASSERT_TRUE(output.wait_for_writer());
+  ASSERT_TRUE(realtime.wait_for_writer());
+  const auto writer = publisher(topics, "imu");
+  std::vector<testing::ImuMessage> sent;
+  for (std::uint64_t n = 0; n < 6; ++n)
+    sent.push_back(imu_message(n, static_cast<std::int64_t>(n), {1.0, -1.0, 0.0}));
+  sent.push_back(imu_message(6, 6, {1.0, 0.0, 0.0}));
+  for (const auto& message : sent) writer->publish(message);
+  ASSERT_TRUE(handler_.collector().wait_for_samples(7));
+  subscriber.stop();
+  // This daemon goes on behind the fifth, before it takes the seventh.
+  topics.publish_realtime(topic("imu"), std::vector{denoised(5), denoised(6)});
+  topics.publish(topic("imu"), std::vector{denoised(5), denoised(6)});
+  for (ImuSubscription* subscription : {&output, &realtime}) {
+    ASSERT_TRUE(subscription->wait_for(2));
+    EXPECT_EQ(untouched_bits(subscription->messages()[0]), untouched_bits(sent[5]));
+    EXPECT_EQ(untouched_bits(subscription->messages()[1]), untouched_bits(sent[6]));
+  }
+  EXPECT_EQ(topics.snapshot().dropped_messages, 0U);
 }
 
 TEST_P(ImuTopicsTest, ReliableAndBestEffortPublishersAreReadAndEachMessageOnce) {
