@@ -246,8 +246,9 @@ TEST_P(FleetMembersTest, WhoSaysByItsLastHandOverThatItLeavesIsGoneWhateverItAnn
   EXPECT_EQ(member.handler().heard(), sensors());
   other.tell(active + "late=1;");
   const Stranger newcomer(there_, options_, "gyrod.shard=3/3;gyrod.state=active;");
-  wait_until([&] { return member.standing().peers > 0; });
-  EXPECT_EQ(member.standing().peers, 1U) << "the newcomer, not what is late of the other";
+  wait_until([&] { return !member.handler().rule().left.empty(); });
+  EXPECT_EQ(member.handler().rule().left, (std::vector{fleet::Shard{3, 3}}))
+      << "the newcomer, not what is late of the other";
 }
 
 TEST_P(FleetMembersTest, AnAnnouncedHandOverIsNotWaitedForForEver) {
