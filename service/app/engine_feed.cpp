@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -75,17 +76,19 @@ void EngineInlet::tend() noexcept {
 std::vector<bus::GivenUp> EngineInlet::serve(const fleet::ServingRule& rule, bool told) noexcept {
   const std::lock_guard lock(mutex_);
   std::vector<bus::GivenUp> given = given_up_by(rule);
-  rule_ = rule;
-  const auto now_served = [this](std::string_view sensor) { return rule_.serves(sensor); };
+  const fleet::ServingRule before = std::exchange(rule_, rule);
+  const auto is_served = [this](std::string_view sensor) { return rule_.serves(sensor); };
+  const auto is_new = [&](std::string_view sensor) { return is_served(sensor) && !before.serves(sensor); };
+  const std::int64_t now = now_ns();
+  if (told) succession_.settle(is_new);
+  succession_.change(now, is_served);
   if (told) {
-    succession_.settle(now_served);
-    for (const Understudy::Part& part : understudy_.take(now_served, now_ns())) {
+    for (const Understudy::Part& part : understudy_.take(is_new, now)) {
       take(part.sensor, part.samples);
       if (part.ended) engine_.end_of_stream(part.sensor);
     }
   } else {
-    succession_.change(now_ns(), now_served);
-    understudy_.drop(now_served);
+    understudy_.drop(is_new);
   }
   for (const bus::GivenUp& one : given) engine_.give_up(one.sensor);
   return given;

@@ -50,13 +50,13 @@ class EngineInlet {
   [[nodiscard]] std::uint64_t foreign() const noexcept { return foreign_.load(std::memory_order_relaxed); }
 
  private:
-  /// Taken before all others, and held while push() waits for workers: then both threads wait.
-  std::mutex mutex_;
   [[nodiscard]] std::vector<bus::GivenUp> given_up_by(const fleet::ServingRule& rule) const;
   bus::Fate take(std::string_view sensor, std::span<const stream::Sample> samples) noexcept;
   [[nodiscard]] std::size_t served_before(std::string_view sensor, std::span<const stream::Sample> samples,
                                           std::int64_t now) noexcept;
 
+  /// Taken before all others, and held while push() waits for workers: then both threads wait.
+  std::mutex mutex_;
   stream::Engine& engine_;
   live::Tap& tap_;
   fleet::ServingRule rule_{.own = {}, .active = true};

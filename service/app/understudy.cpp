@@ -12,10 +12,23 @@ void Understudy::let_go(Followed& followed, std::int64_t now_ns) {
   }
 }
 
+void Understudy::make_room(std::int64_t now_ns) {
+  constexpr std::int64_t kPauseNs = 1'000'000'000;
+  if (made_room_ns_ && now_ns - *made_room_ns_ < kPauseNs) return;
+  made_room_ns_ = now_ns;
+  for (auto& [sensor, followed] : followed_) let_go(followed, now_ns);
+  std::erase_if(followed_, [](const auto& entry) { return entry.second.samples.empty(); });
+}
+
 void Understudy::follow(std::string_view sensor, std::span<const stream::Sample> samples,
                         std::int64_t now_ns) {
+  const bool full = samples_ + samples.size() > kMostSamples || followed_.size() == kMostSensors;
+  if (full) make_room(now_ns);
   auto found = followed_.find(sensor);
-  if (found == followed_.end()) found = followed_.emplace(sensor, Followed{}).first;
+  if (found == followed_.end()) {
+    if (followed_.size() == kMostSensors) return;
+    found = followed_.emplace(sensor, Followed{}).first;
+  }
   Followed& followed = found->second;
   let_go(followed, now_ns);
   followed.ended = false;

@@ -28,6 +28,8 @@ class Understudy {
   static constexpr std::int64_t kKeptNs = 3'000'000'000;
   /// Samples kept at the most, over all sensors: some 20 MB. What no longer finds room is passed over.
   static constexpr std::size_t kMostSamples = 262'144;
+  /// Sensors at the most; further ones are passed over.
+  static constexpr std::size_t kMostSensors = 65'536;
   /// Where packets are lost, what was sent before the mark may come so much later.
   static constexpr std::int64_t kMarkHoldsNs = 60'000'000'000;
 
@@ -80,10 +82,13 @@ class Understudy {
 
   /// What came too long ago goes.
   void let_go(Followed& followed, std::int64_t now_ns);
+  /// The same of all sensors, at most once a second.
+  void make_room(std::int64_t now_ns);
 
   BySensor<Followed> followed_;
   BySensor<Mark> marks_;
   std::size_t samples_ = 0;
+  std::optional<std::int64_t> made_room_ns_;
 };
 
 }  // namespace gyrod::app

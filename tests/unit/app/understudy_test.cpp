@@ -92,6 +92,17 @@ TEST_F(UnderstudyTest, BoundsItsMemoryByTheOldestOfTheSensorThatComes) {
       << "what was given out has left its room";
 }
 
+TEST_F(UnderstudyTest, SensorsThatHaveStoppedMakeRoom) {
+  understudy_.follow("stopped", std::vector<stream::Sample>(Understudy::kMostSamples, sample(1)), 0);
+  follow("new", 1, 2999);
+  follow("new", 2, 3001);
+  follow("new", 3, 4001);
+  EXPECT_THAT(taken(4001), ElementsAre(3)) << "looked for once a second";
+  for (std::size_t k = 0; k < Understudy::kMostSensors; ++k) follow(std::to_string(k), 1, 10'000);
+  follow("one more", 1, 10'001);
+  EXPECT_EQ(understudy_.take(all, 10'001 * kMs).size(), Understudy::kMostSensors);
+}
+
 TEST_F(UnderstudyTest, TellsTheMarkOfASensorOnceAndForAMinute) {
   understudy_.note(std::vector<bus::GivenUp>{{"imu", {7, 70}}, {"other", {8, 80}}, {"third", {9, 90}}}, 0);
   EXPECT_TRUE(understudy_.has_marks());
