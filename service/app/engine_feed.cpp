@@ -1,6 +1,8 @@
 #include "app/engine_feed.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -54,7 +56,11 @@ std::size_t EngineInlet::served_before(std::string_view sensor, std::span<const 
 
 void EngineInlet::end(std::string_view sensor) noexcept {
   const std::lock_guard lock(mutex_);
-  understudy_.end(sensor);
+  if (rule_.serves(sensor)) {
+    understudy_.forget_mark(sensor);
+  } else {
+    understudy_.end(sensor);
+  }
   engine_.end_of_stream(sensor);
 }
 
@@ -111,7 +117,11 @@ std::vector<bus::GivenUp> EngineInlet::given_up_by(const fleet::ServingRule& rul
 
 void EngineInlet::heed(std::span<const bus::GivenUp> given) noexcept {
   const std::lock_guard lock(mutex_);
-  understudy_.note(given, now_ns());
+  // Of what is served here others tell nothing that matters: they served the same, as a twin does.
+  std::vector<bus::GivenUp> of_others;
+  std::ranges::copy_if(given, std::back_inserter(of_others),
+                       [this](const bus::GivenUp& one) { return !rule_.serves(one.sensor); });
+  understudy_.note(of_others, now_ns());
 }
 
 void FeedFromBus::on_samples(std::string_view sensor, std::span<const stream::Sample> samples) noexcept {

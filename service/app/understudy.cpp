@@ -12,6 +12,18 @@ void Understudy::let_go(Followed& followed, std::int64_t now_ns) {
   }
 }
 
+/// A mark tells nothing of what the sensor sent before it began anew.
+bool Understudy::begins_anew(const Followed& followed, const stream::Sample& sample) noexcept {
+  if (followed.samples.empty()) return false;
+  const stream::Sample& last = followed.samples.back().sample;
+  return sample.sequence < last.sequence || sample.stamp_ns < last.stamp_ns;
+}
+
+void Understudy::clear(Followed& followed) noexcept {
+  samples_ -= followed.samples.size();
+  followed = {};
+}
+
 void Understudy::make_room(std::int64_t now_ns) {
   constexpr std::int64_t kPauseNs = 1'000'000'000;
   if (made_room_ns_ && now_ns - *made_room_ns_ < kPauseNs) return;
@@ -31,8 +43,8 @@ void Understudy::follow(std::string_view sensor, std::span<const stream::Sample>
   }
   Followed& followed = found->second;
   let_go(followed, now_ns);
-  followed.ended = false;
   for (const stream::Sample& sample : samples) {
+    if (followed.ended || begins_anew(followed, sample)) clear(followed);
     if (samples_ == kMostSamples) {
       // Its own oldest, as a hole in the middle would be worse.
       if (followed.samples.empty()) return;
@@ -51,6 +63,7 @@ void Understudy::end(std::string_view sensor) {
 void Understudy::note(std::span<const bus::GivenUp> given, std::int64_t now_ns) {
   std::erase_if(marks_, [now_ns](const auto& old) { return now_ns - old.second.told_ns > kMarkHoldsNs; });
   for (const bus::GivenUp& one : given) {
+    if (marks_.size() == kMostSensors) return;
     const auto [found, is_new] = marks_.try_emplace(one.sensor, Mark{one.taken, now_ns});
     // Two daemons that gave it up one after the other may be heard the other way round.
     if (is_new || found->second.mark.stamp_ns <= one.taken.stamp_ns) found->second = {one.taken, now_ns};
@@ -76,6 +89,10 @@ void Understudy::drop(const std::function<bool(std::string_view)>& now_served) {
     if (goes) samples_ -= entry.second.samples.size();
     return goes;
   });
+}
+
+void Understudy::forget_mark(std::string_view sensor) {
+  if (const auto found = marks_.find(sensor); found != marks_.end()) marks_.erase(found);
 }
 
 std::optional<stream::PublishedMark> Understudy::take_mark(std::string_view sensor, std::int64_t now_ns) {

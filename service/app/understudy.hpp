@@ -55,6 +55,8 @@ class Understudy {
 
   /// Whether take_mark() can answer.
   [[nodiscard]] bool has_marks() const noexcept { return !marks_.empty(); }
+  /// The sensor that has a mark has ended: what it sends next is new.
+  void forget_mark(std::string_view sensor);
   /// The mark of a sensor, once.
   [[nodiscard]] std::optional<stream::PublishedMark> take_mark(std::string_view sensor, std::int64_t now_ns);
 
@@ -80,6 +82,8 @@ class Understudy {
   template <class Value>
   using BySensor = std::unordered_map<std::string, Value, Hash, std::equal_to<>>;
 
+  [[nodiscard]] static bool begins_anew(const Followed& followed, const stream::Sample& sample) noexcept;
+  void clear(Followed& followed) noexcept;
   /// What came too long ago goes.
   void let_go(Followed& followed, std::int64_t now_ns);
   /// The same of all sensors, at most once a second.

@@ -113,7 +113,8 @@ class FleetMembers::Impl {
   void hear_hand_overs() {
     if (!hand_overs_) return;
     hand_overs_->take([this](const std::string& id, std::span<const GivenUp> given, bool leaves) {
-      handler_.on_given_up(given);
+      // What daemons told before this one began to listen is of the past.
+      if (roster_.state() != State::kListening) handler_.on_given_up(given);
       if (!leaves) return;
       if (left_.size() == fleet::kMostPeers) left_.clear();
       left_.insert(id);
@@ -188,9 +189,13 @@ class FleetMembers::Impl {
   void let_go(dds_instance_handle_t writer, std::optional<std::uint64_t> handed) {
     const auto known = ids_.find(writer);
     if (known == ids_.end()) return;
-    if (hand_overs_ && handed) hand_overs_->expect(known->second, *handed);
-    if (hand_overs_ && !handed) hand_overs_->forget(known->second);
-    if (!handed && left_.erase(known->second) == 0) untold_ = true;
+    const bool has_told = left_.erase(known->second) > 0;
+    if (hand_overs_ && handed && !has_told) {
+      hand_overs_->expect(known->second, *handed);
+    } else if (hand_overs_) {
+      hand_overs_->forget(known->second);
+    }
+    if (!handed && !has_told) untold_ = true;
     roster_.forget(known->second);
     ids_.erase(known);
   }

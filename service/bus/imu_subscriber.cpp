@@ -153,7 +153,7 @@ class ImuSubscriber::Impl {
     if (!topic.hold(message)) return;
     const stream::Sample sample = sample_of(message);
     const Fate fate = handler_.on_sample(topic.name(), sample);
-    if (fate == Fate::kDoesNot) topic.give_up_newest();
+    if (fate == Fate::kDoesNot) topic.give_up(sample.stamp_ns);
     if (fate == Fate::kMayLeave) topic.let_stay(sample.stamp_ns);
   }
 

@@ -36,9 +36,9 @@ bool ImuTopic::hold(const Imu& message) noexcept {
   return true;
 }
 
-void ImuTopic::give_up_newest() noexcept {
+void ImuTopic::give_up(std::int64_t stamp_ns) noexcept {
   const std::lock_guard lock(mutex_);
-  held_.drop_newest();
+  if (held_.size() > 0 && stamp_ns_of(held_.newest()) == stamp_ns) held_.drop_newest();
 }
 
 void ImuTopic::let_stay(std::int64_t stamp_ns) noexcept {
@@ -49,11 +49,15 @@ void ImuTopic::let_stay(std::int64_t stamp_ns) noexcept {
 void ImuTopic::publish(std::span<const stream::DenoisedSample> samples) noexcept {
   const std::lock_guard lock(mutex_);
   for (const stream::DenoisedSample& sample : samples) {
-    while (held_.size() > 0 && stamp_ns_of(held_.oldest()) != sample.stamp_ns) {
+    const bool next = held_.size() > 0 && stamp_ns_of(held_.oldest()) == sample.stamp_ns;
+    if (!next && held_.find(sample.stamp_ns) == nullptr) {
+      ++counts_.dropped;
+      continue;
+    }
+    while (stamp_ns_of(held_.oldest()) != sample.stamp_ns) {
       if (!held_.oldest_may_stay()) ++counts_.dropped;
       held_.drop_oldest();
     }
-    if (held_.size() == 0) continue;
     denoised_.publish(held_.oldest(), sample);
     held_.drop_oldest();
   }

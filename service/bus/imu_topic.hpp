@@ -28,7 +28,7 @@ struct ImuCounts {
 /// Reads one topic and writes its outputs. What gyrod does not denoise of a message waits here until its rates are known: the engine
 /// releases each sample that it accepted once and in order, so those that wait are the messages of exactly those samples.
 ///
-/// take(), hold(), give_up_newest() and let_stay() belong to one thread; everything else is for any.
+/// take(), hold(), give_up() and let_stay() belong to one thread; everything else is for any.
 class ImuTopic {
  public:
   /// @throws BusError naming topic, QoS and DDS's answer
@@ -44,8 +44,8 @@ class ImuTopic {
 
   /// Keeps a copy of a message until its denoised sample is published. @return false if the message is not taken, counted
   [[nodiscard]] bool hold(const Imu& message) noexcept;
-  /// The engine did not accept the newest.
-  void give_up_newest() noexcept;
+  /// The engine did not accept the newest, which has that stamp.
+  void give_up(std::int64_t stamp_ns) noexcept;
   /// Another daemon serves the sensor: the message with that stamp is published only if this one takes over in time.
   void let_stay(std::int64_t stamp_ns) noexcept;
 

@@ -16,7 +16,10 @@ void HandOverBook::change(const std::string& id, const Change& change) {
 }
 
 void HandOverBook::announce(const std::string& id, std::uint64_t number) {
-  change(id, [number](Account& account) { account.announced = std::max(account.announced, number); });
+  change(id, [number](Account& account) {
+    account.announced = std::max(account.announced, number);
+    account.gone = false;
+  });
 }
 
 void HandOverBook::receive(const std::string& id, std::uint64_t number) {

@@ -46,7 +46,10 @@ void Channel::expect_history() noexcept {
 }
 
 void Channel::continue_after(const PublishedMark& mark) noexcept {
-  if (!published_before_ || published_before_->sequence <= mark.sequence) published_before_ = mark;
+  // What this process knows itself is older, but where it is ahead in both.
+  const bool ahead = published_before_ && published_before_->sequence > mark.sequence &&
+                     published_before_->stamp_ns > mark.stamp_ns;
+  if (!ahead) published_before_ = mark;
   history_until_s_.reset();
   history_lasts_s_ = kLongestHandOver_s;
 }

@@ -162,7 +162,10 @@ void Engine::Impl::come_again(std::string_view sensor) noexcept {
 
 void Engine::Impl::give_up(std::string_view sensor) noexcept {
   end_of_stream(sensor);
-  if (Channel* channel = registry_.find(sensor)) channel->gate.forget();
+  Channel* channel = registry_.find(sensor);
+  if (channel == nullptr) return;
+  channel->end_history();
+  channel->gate.forget();
 }
 
 std::optional<PublishedMark> Engine::Impl::taken_up_to(std::string_view sensor) const noexcept {

@@ -90,6 +90,22 @@ TEST_F(EngineInletTest, TellsUpToWhereItServedWhatItGivesUpAndServesItNoMore) {
   EXPECT_EQ(inlet_.foreign(), 1U);
 }
 
+TEST_F(EngineInletTest, WhatATwinHasServedIsServedHereAllTheSame) {
+  push(5, 1);
+  inlet_.heed(std::vector<bus::GivenUp>{{kSensor, {8, counting_samples(1, 8)[0].stamp_ns}}});
+  EXPECT_EQ(push(5, 6), bus::Fate::kLeaves);
+  EXPECT_THAT(published(), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
+}
+
+TEST_F(EngineInletTest, AMarkIsOfNoUseOnceTheSensorHasEnded) {
+  inlet_.serve(kNothing, true);
+  inlet_.heed(std::vector<bus::GivenUp>{{kSensor, {8, counting_samples(1, 8)[0].stamp_ns}}});
+  inlet_.serve(kAll, true);
+  inlet_.end(kSensor);
+  EXPECT_EQ(push(3, 1), bus::Fate::kLeaves) << "a recording that is sent once more";
+  EXPECT_THAT(published(), ElementsAre(1, 2, 3));
+}
+
 // As of a daemon that was killed: what may have been sent before is left out by time, and what was kept is, too.
 TEST_F(EngineInletTest, LeavesOutByTimeWhatNobodyHasToldOf) {
   inlet_.serve(kNothing, true);

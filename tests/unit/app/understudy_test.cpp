@@ -92,6 +92,18 @@ TEST_F(UnderstudyTest, BoundsItsMemoryByTheOldestOfTheSensorThatComes) {
       << "what was given out has left its room";
 }
 
+// The daemon that served it had all of that, or its mark would be of that.
+TEST_F(UnderstudyTest, KeepsNothingOfASensorFromBeforeItBeganAnew) {
+  follow("imu", 900, 0);
+  understudy_.end("imu");
+  follow("imu", 901, 1);
+  EXPECT_THAT(taken(2), ElementsAre(901)) << "it had ended";
+  follow("imu", 900, 3);
+  follow("imu", 1, 4);
+  follow("imu", 2, 5);
+  EXPECT_THAT(taken(6), ElementsAre(1, 2)) << "its numbers begin anew";
+}
+
 TEST_F(UnderstudyTest, SensorsThatHaveStoppedMakeRoom) {
   understudy_.follow("stopped", std::vector<stream::Sample>(Understudy::kMostSamples, sample(1)), 0);
   follow("new", 1, 2999);

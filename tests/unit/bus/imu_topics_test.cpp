@@ -162,6 +162,24 @@ TEST_P(ImuTopicsTest, WhatAnotherDaemonServesWaitsWhileThereIsRoomAndIsNotMissed
   EXPECT_EQ(topics.snapshot().dropped_messages, 0U);
 }
 
+TEST_P(ImuTopicsTest, ASampleWhoseMessageHasGoneIsCountedAndTakesNoOtherAlong) {
+  options_.ros2.topics = {topic("imu")};
+  ImuTopics topics(reader_domain_, options_);
+  ImuSubscriber subscriber(topics, handler_);
+  subscriber.start();
+  ImuSubscription output(writer_domain_.participant(), topic("imu_denoised"));
+  ASSERT_TRUE(output.wait_for_writer());
+  const auto writer = publisher(topics, "imu");
+  for (std::int64_t n = 10; n < 13; ++n)
+    writer->publish(imu_message(static_cast<std::uint64_t>(n), n, {1.0, 0.0, 0.0}));
+  ASSERT_TRUE(handler_.collector().wait_for_samples(3));
+  subscriber.stop();
+  topics.publish(topic("imu"),
+                 std::vector{denoised(8), denoised(9), denoised(10), denoised(11), denoised(12)});
+  ASSERT_TRUE(output.wait_for(3));
+  EXPECT_EQ(topics.snapshot().dropped_messages, 2U);
+}
+
 TEST_P(ImuTopicsTest, ReliableAndBestEffortPublishersAreReadAndEachMessageOnce) {
   options_.ros2.topics = {topic("imu")};
   ImuTopics topics(reader_domain_, options_);

@@ -34,6 +34,16 @@ TEST(HandOverBook, AwaitsTheLastOneOfADaemonThatHasGone) {
   EXPECT_FALSE(book.owes());
 }
 
+TEST(HandOverBook, ADaemonThatIsBackOwesNothingThatHasCome) {
+  HandOverBook book;
+  book.announce("a", 3);
+  book.forget("a");
+  book.announce("a", 3);
+  book.receive("a", 3);
+  book.announce("a", 3);
+  EXPECT_FALSE(book.owes());
+}
+
 TEST(HandOverBook, WritesOffWhatDoesNotCome) {
   HandOverBook book;
   book.announce("a", 1);

@@ -114,6 +114,14 @@ TEST_P(EngineWithHistory, TellsUpToWhereItHasTakenASensor) {
   EXPECT_EQ(sink.samples("imu").size(), 100U + 19U);
 }
 
+// The sensor has begun anew with its numbers, not with its clock, while another process served it.
+TEST_P(EngineWithHistory, TheMarkThatWasToldCountsMoreThanAnOlderOneOfItsOwn) {
+  RecordingSink sink;
+  Engine engine(with_history(small_options(0), {1'000'000, sample_at(10).stamp_ns}), method(), sink);
+  engine.continue_after("imu", mark_at(150));
+  EXPECT_EQ(engine.push("imu", counting_samples(20, 140)), 9U);
+}
+
 // A second that was served elsewhere, and a sample that nobody has.
 TEST_P(EngineWithHistory, MissesNothingOfASensorThatOthersServedMeanwhile) {
   RecordingSink sink;
