@@ -19,9 +19,9 @@ std::string text_of(const dds_guid_t& guid) {
   return text;
 }
 
-std::string guid_of(dds_entity_t entity) {
+std::string guid_of(dds_entity_t writer) {
   dds_guid_t guid{};
-  check(dds_get_guid(entity, &guid), "name the writer of denoised samples");
+  check(dds_get_guid(writer, &guid), "name the writer of denoised samples");
   return text_of(guid);
 }
 
