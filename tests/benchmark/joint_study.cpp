@@ -4,19 +4,18 @@
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz; and core::JointOptions' members.
+// (first sample of the noise), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
+// that were moved by hand, their own rates the truth, no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "core/evaluation/tuning.hpp"
@@ -24,12 +23,16 @@
 #include "core/joint/kalman_bank.hpp"
 #include "core/noise/standstill_learner.hpp"
 #include "core/noise/still_noise.hpp"
+#include "joint_study_options.hpp"
 #include "support/drive_rows.hpp"
 #include "support/slow_gain.hpp"
 
 namespace {
 
 using namespace gyrod;
+using benchmark::Arguments;
+using benchmark::number;
+using benchmark::options_of;
 
 constexpr std::array<std::size_t, 6> kLags = {0, 4, 8, 12, 16, 32};
 
@@ -55,13 +58,6 @@ constexpr std::array<Prototype, 18> kPrototype = {{{"06 x", {.240, .213, .211}},
                                                    {"09 x at 3", {.521, .482, .482}},
                                                    {"09 y at 3", {.500, .441, .431}},
                                                    {"09 z at 3", {.298, .241, .225}}}};
-
-using Arguments = std::map<std::string, std::string>;
-
-double number(const Arguments& arguments, const std::string& key, double standard) {
-  const auto found = arguments.find(key);
-  return found == arguments.end() ? standard : std::stod(found->second);
-}
 
 test::NoiseChoice noise_choice(const Arguments& arguments) {
   const auto found = arguments.find("noise");
@@ -119,44 +115,6 @@ void resample(test::DriveRow& row, double rate_hz) {
   row.truth_dps = std::move(truth);
   row.noisy_dps = std::move(noisy);
   row.rate_hz = rate_hz;
-}
-
-core::JointOptions options_of(const Arguments& arguments) {
-  core::JointOptions options;
-  const auto set = [&arguments](const char* key, auto& member) {
-    member = static_cast<std::decay_t<decltype(member)>>(number(arguments, key, static_cast<double>(member)));
-  };
-  options.hop_samples = static_cast<std::size_t>(number(arguments, "hop", 32));
-  set("least_excess", options.least_excess);
-  set("slow_period_samples", options.slow_period_samples);
-  set("tapers", options.tapers);
-  set("recency", options.recency);
-  set("full_iterations", options.full_iterations);
-  set("pruned_iterations", options.pruned_iterations);
-  set("shrinkage", options.shrinkage);
-  set("bandwidth_cycles", options.bandwidth_cycles);
-  set("line_pole", options.line_pole);
-  set("prune_gain", options.prune_gain);
-  set("pole_factor", options.pole_factor);
-  set("level_pole", options.level_pole);
-  set("slope_pole", options.slope_pole);
-  set("agile_drive", options.agile_drive);
-  set("drive_ratio", options.drive_ratio);
-  set("agile_log_prior", options.agile_log_prior);
-  set("drive_log_prior", options.drive_log_prior);
-  set("hand_over_memory", options.hand_over_memory);
-  set("still_log_prior", options.still_log_prior);
-  set("switching_rate", options.switching_rate);
-  set("likelihood_power", options.likelihood_power);
-  set("most_evidence", options.most_evidence);
-  set("hand_over_samples", options.hand_over_samples);
-  set("correction_rate", options.correction_rate);
-  set("correction_share", options.correction_share);
-  set("steady_correction", options.steady_correction);
-  set("most_steady_correction", options.most_steady_correction);
-  set("steady_memory", options.steady_memory);
-  set("variance_factor", options.variance_factor);
-  return options;
 }
 
 struct Figures {
@@ -220,9 +178,17 @@ Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Argu
 
 std::array<double, kLags.size()> best_butterworth(const test::DriveRow& row) {
   std::array<double, kLags.size()> best{};
-  best.fill(1e9);
   const auto begin = static_cast<std::size_t>(20.0 * row.rate_hz);
   const std::size_t end = std::min(static_cast<std::size_t>(80.0 * row.rate_hz), row.noisy_dps.size() - 32);
+  double sum = 0.0;  // raw is a rival, too
+  std::size_t known = 0;
+  for (std::size_t n = begin; n < end; ++n) {
+    const double error = row.noisy_dps[n] - row.truth_dps[n];
+    if (std::isnan(error)) continue;
+    sum += error * error;
+    ++known;
+  }
+  best.fill(std::sqrt(sum / static_cast<double>(known)));
   for (const core::Rival rival :
        {core::Rival::kButterworth1, core::Rival::kButterworth2, core::Rival::kButterworth4}) {
     const auto tuned = core::tune(rival, {row.noisy_dps, row.truth_dps, {begin, end}}, kLags);
@@ -236,6 +202,11 @@ void print(const char* what, const std::array<double, kLags.size()>& values) {
   for (const double value : values) std::printf(" %5.3f", value);
 }
 
+bool has_motion_by_hand(const Arguments& arguments) {
+  const auto found = arguments.find("motion");
+  return found != arguments.end() && found->second == "hand";
+}
+
 int study(const Arguments& arguments) {
   std::printf("%-12s %41s", "row", "RMSE at lag 0, 4, 8, 12, 16, 32");
   std::printf(" | of Butterworth's | of the prototype's 0, 8, 16 | NEE, NIS, alarm | slow gain 0, 16\n");
@@ -246,11 +217,13 @@ int study(const Arguments& arguments) {
   std::size_t index = 0;
   std::size_t cells = 0;
   const auto axes = arguments.find("axes");
-  for (auto& row : test::drive_rows(noise_choice(arguments))) {
-    const auto& prototype = kPrototype[index++].rmse;
+  const bool by_hand = has_motion_by_hand(arguments);
+  const auto choice = noise_choice(arguments);
+  for (auto& row : by_hand ? test::hand_rows(choice) : test::drive_rows(choice)) {
+    const auto* prototype = by_hand ? nullptr : &kPrototype.at(index++).rmse;
     if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
     const core::NoiseModel noise = believed(row, arguments);
-    resample(row, number(arguments, "rate", 120));
+    if (!by_hand) resample(row, number(arguments, "rate", 120));
     const Figures figures = run(row, noise, arguments);
     std::printf("%-12s ", row.name.c_str());
     print("", figures.rmse);
@@ -263,8 +236,8 @@ int study(const Arguments& arguments) {
       print(" |", ratios);
     }
     std::printf(" |");
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double ratio = figures.rmse[2 * i] / prototype[i];
+    for (std::size_t i = 0; prototype != nullptr && i < 3; ++i) {
+      const double ratio = figures.rmse[2 * i] / (*prototype)[i];
       worst_prototype = std::max(worst_prototype, ratio);
       sum += std::log(ratio);
       ++cells;
@@ -275,7 +248,7 @@ int study(const Arguments& arguments) {
     std::fflush(stdout);
   }
   std::printf("worst of Butterworth's %.3f, of the prototype's %.3f; geometric mean of the latter %.4f\n",
-              worst_rival, worst_prototype, std::exp(sum / static_cast<double>(cells)));
+              worst_rival, worst_prototype, cells > 0 ? std::exp(sum / static_cast<double>(cells)) : 0.0);
   return 0;
 }
 

@@ -2,6 +2,7 @@
 /// the recordings of GYROD_DATA; whoever uses them skips where that folder is absent. Link gyrod_files.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/signal/interpolation.hpp"
@@ -97,31 +99,89 @@ inline std::string row_name(const std::string& drive, std::size_t axis, double s
   return name + (scale < 1.0 ? " at 0.3" : " at 3");
 }
 
+/// A sensor's noise at rest, deg/s.
+inline std::vector<double> still_dps(const NoiseChoice& noise, double rate_hz) {
+  std::vector<double> still = load(noise.file, rate_hz).gyro_radps[noise.axis];
+  for (double& value : still) value *= 180.0 / std::numbers::pi;
+  return still;
+}
+
+/// The row of a truth.
+inline DriveRow noisy_row(const std::string& drive, std::size_t axis, double rate_hz,
+                          std::vector<double> truth_dps, std::span<const double> still,
+                          const NoiseChoice& noise, double scale) {
+  DriveRow row;
+  row.name = row_name(drive, axis, scale);
+  row.drive = drive;
+  row.axis = axis;
+  row.noise_scale = scale;
+  row.rate_hz = rate_hz;
+  row.truth_dps = std::move(truth_dps);
+  row.noisy_dps = bridged(row.truth_dps);
+  const auto added = noise_of(still.subspan(noise.start, row.noisy_dps.size()), scale);
+  for (std::size_t n = 0; n < added.size(); ++n) row.noisy_dps[n] += added[n];
+  row.still_dps = noise_of(still.subspan(noise.still_start, noise.still_samples), scale);
+  return row;
+}
+
 }  // namespace detail
 
 /// The 18 rows of two drives, three axes and noise scaled by 1, 0.3 and 3, in this order. All rows have the same noise.
 /// @pre has_drive_rows(noise)
 inline std::vector<DriveRow> drive_rows(const NoiseChoice& noise = {}) {
   constexpr double kRateHz = 120.0;
-  std::vector<double> still = detail::load(noise.file, kRateHz).gyro_radps[noise.axis];
-  for (double& value : still) value *= 180.0 / std::numbers::pi;
+  const std::vector<double> still = detail::still_dps(noise, kRateHz);
   std::vector<DriveRow> rows;
   for (const double scale : {1.0, 0.3, 3.0}) {
     for (const std::string drive : {"06", "09"}) {
       const files::Record record = detail::load("wid_car_trial" + drive + "_xsensdot_120hz.csv.gz", kRateHz);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        DriveRow row;
-        row.name = detail::row_name(drive, axis, scale);
-        row.drive = drive;
-        row.axis = axis;
-        row.noise_scale = scale;
-        row.rate_hz = kRateHz;
-        row.truth_dps = record.others.at(std::string("ref_gyro_") + "xyz"[axis] + "_dps");
-        row.noisy_dps = bridged(row.truth_dps);
-        const auto added = noise_of(std::span(still).subspan(noise.start, row.noisy_dps.size()), scale);
-        for (std::size_t n = 0; n < added.size(); ++n) row.noisy_dps[n] += added[n];
-        row.still_dps = noise_of(std::span(still).subspan(noise.still_start, noise.still_samples), scale);
-        rows.push_back(std::move(row));
+        auto truth = record.others.at(std::string("ref_gyro_") + "xyz"[axis] + "_dps");
+        rows.push_back(detail::noisy_row(drive, axis, kRateHz, std::move(truth), still, noise, scale));
+      }
+    }
+  }
+  return rows;
+}
+
+/// A recording whose own rates serve as truth, and how it is called.
+struct Motion {
+  std::string name;
+  std::string file;
+  double rate_hz;
+};
+
+/// Sensors moved by hand, with knocks, at rest in between: motion unlike a car's.
+inline const std::array<Motion, 5>& hand_motions() {
+  static const std::array<Motion, 5> motions = {
+      {{"room1", "tumvi_room1_bmi160_200hz.csv.gz", 200.0},
+       {"room3", "tumvi_room3_bmi160_200hz.csv.gz", 200.0},
+       {"broad02", "broad_02_undisturbed_slow_rotation_B_286hz.csv.gz", 285.7},
+       {"broad10", "broad_10_undisturbed_slow_translation_A_286hz.csv.gz", 285.7},
+       {"broad24", "broad_24_disturbed_tapping_A_286hz.csv.gz", 285.7}}};
+  return motions;
+}
+
+inline bool has_hand_rows(const NoiseChoice& noise = {}) {
+  const auto there = [](const std::string& name) { return std::filesystem::exists(data_folder() / name); };
+  return there(noise.file) &&
+         std::ranges::all_of(hand_motions(), [&there](const Motion& motion) { return there(motion.file); });
+}
+
+/// The 45 rows of five recordings, three axes and noise scaled by 1, 0.3 and 3: the rates as recorded, their own noise included, are the
+/// truth. @pre has_hand_rows(noise)
+inline std::vector<DriveRow> hand_rows(const NoiseChoice& noise = {}) {
+  constexpr double kNoiseRateHz = 100.0;
+  const std::vector<double> still = detail::still_dps(noise, kNoiseRateHz);
+  std::vector<DriveRow> rows;
+  for (const double scale : {1.0, 0.3, 3.0}) {
+    for (const Motion& motion : hand_motions()) {
+      const files::Record record = detail::load(motion.file, motion.rate_hz);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<double> truth = record.gyro_radps[axis];
+        for (double& value : truth) value *= 180.0 / std::numbers::pi;
+        rows.push_back(
+            detail::noisy_row(motion.name, axis, motion.rate_hz, std::move(truth), still, noise, scale));
       }
     }
   }

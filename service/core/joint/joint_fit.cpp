@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -169,6 +170,8 @@ void JointFit::start_line(const Tone& tone) noexcept {
 void JointFit::design(JointModel& model) noexcept {
   model.fallbacks = 0;
   model.noise_variance = unit_ * noise_variance(noise_);
+  model.residual_variance = max_signal_cycles_ < 0.5 ? std::numeric_limits<double>::infinity()
+                                                     : model.noise_variance + unit_ * left_out();
   const BlockSet pruned = blocks_of(pruned_, 1.0);
   make(blocks_of(full_, 1.0), MemberKind::kFull, model);
   make(pruned, MemberKind::kPruned, model);
@@ -221,6 +224,15 @@ bool JointFit::is_signal(const SpectralMode& mode) noexcept {
   if (mode.slow || (max_signal_cycles_ >= 0.5 && peak_.power == 0.0)) return true;
   const auto [centre_cycles, power] = whittle_.weigh(mode);
   return centre_cycles <= max_signal_cycles_ && !peak_.may_be(centre_cycles, power);
+}
+
+/// Variance of the modes that are no signal.
+double JointFit::left_out() noexcept {
+  double sum = 0.0;
+  for (const SpectralMode& mode : full_.modes()) {
+    if (!is_signal(mode)) sum += whittle_.weigh(mode).power;
+  }
+  return sum;
 }
 
 BlockSet JointFit::with_agile(const FilterBlock& agile) noexcept {

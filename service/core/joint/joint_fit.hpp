@@ -60,6 +60,7 @@ class JointFit {
   void design(JointModel& model) noexcept;
   void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
+  [[nodiscard]] double left_out() noexcept;
   [[nodiscard]] bool is_signal(const SpectralMode& mode) noexcept;
   [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
 

@@ -78,13 +78,19 @@ struct JointOptions {
   double correction_rate = 0.006;
   /// The same where the estimate trusts the samples: at least this much of the estimate's variance over the noise's. Range 0..1.
   double correction_share = 0.04;
-  /// The same where that has been so for long, as on a road that shakes: this much of the square of that ratio's least of late, up to
-  /// most_steady_correction. Motion as small as the noise is weighed against it and shrinks; here it can be given back at little cost.
-  /// Range 0..10; 0..1.
-  double steady_correction = 1.0;
+  /// The same where the estimate has trusted the samples for long, as on a road that shakes: this much of the cube of the least ratio of
+  /// late, up to most_steady_correction. Motion as small as the noise is weighed against it and shrinks; here it can be given back at little
+  /// cost. Range 0..1e4; 0..1.
+  double steady_correction = 45.0;
   double most_steady_correction = 0.05;
   /// Samples in which a least ratio that is over is forgotten. Range 1..1e9.
-  double steady_memory = 512.0;
+  double steady_memory = 2048.0;
+  /// What an estimate takes off the samples is noise, up to this many times its variance in one sample, and this many in the mean of late; what
+  /// is more goes back. Range 1..1e12.
+  double residual_limit = 16.0;
+  double residual_mean_limit = 2.0;
+  /// Samples of that mean: enough for it to stay below 2 by chance (a standard deviation of 0.25), few enough for a knock. Range 1..1e9.
+  double residual_memory = 16.0;
 };
 
 /// Which options hold for a sample rate and a window. Those that mean a time keep it at rates above the design's, those that a short window

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace gyrod::core {
 namespace {
@@ -133,12 +132,12 @@ BankEstimates KalmanBank::step(double sample) noexcept {
     normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
   BankEstimates answer;
   answer.realtime = combine(0);
-  correct(sample, realtime_correction_, answer.realtime);
+  correct(sample, 0, realtime_correction_, answer.realtime);
   if (!std::isfinite(answer.realtime.rate)) return start_anew(sample);
   answer.denoised = answer.realtime;
   if (count_ <= lag_) return answer;
   answer.denoised = combine(lag_);
-  correct(sample_at(count_ - 1 - lag_), denoised_correction_, answer.denoised);
+  correct(sample_at(count_ - 1 - lag_), lag_, denoised_correction_, answer.denoised);
   return std::isfinite(answer.denoised.rate) ? answer : start_anew(sample);
 }
 
@@ -149,31 +148,11 @@ BankEstimates KalmanBank::start_anew(double sample) noexcept {
   return {.realtime = nothing_known, .denoised = nothing_known};
 }
 
-BankEstimate KalmanBank::held(std::size_t age) const noexcept {
-  assert(age <= lag_ && age < count_);
-  BankEstimate estimate = combine(age);
-  estimate.rate += denoised_correction_.step + denoised_correction_.slow.paid();
-  estimate.variance = widened(estimate.variance);
-  return estimate;
-}
-
-void KalmanBank::correct(double sample, Correction& correction, BankEstimate& answer) const noexcept {
-  correction.step *= options_.hand_over_memory;
-  answer.rate += correction.step;
-  const double noise = model_.noise_variance * unit_;
-  const double ratio = noise > 0.0 ? answer.variance / noise : 0.0;
-  answer.rate = correction.slow.apply(sample, answer.rate, ratio, options_, model_.scale);
-  answer.variance = widened(answer.variance);
-}
-
-double KalmanBank::widened(double variance) const noexcept {
-  return std::min(variance * options_.variance_factor, std::numeric_limits<double>::max());
-}
-
 /// The local levels; the other members stay out.
 void KalmanBank::start() noexcept {
   model_ = {};
   model_.noise_variance = 1.0;
+  model_.residual_variance = 1.0;
   scale();
   for (std::size_t i = 0; i < kStartRatios.size(); ++i) {
     model_.members[i] = local_level(kStartRatios[i]);
@@ -252,37 +231,6 @@ void KalmanBank::weigh(const std::array<double, kMembers>& surprise) noexcept {
     sum += member.weight;
   }
   for (Member& member : members_) member.weight /= sum;
-}
-
-/// Of x[t - lag], t the newest sample, without the slow correction.
-BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
-  std::array<double, kMembers> estimates{};
-  BankEstimate mixture;
-  // Differences to it are weighed: where all agree, that is the answer to the last bit.
-  std::optional<double> first;
-  for (std::size_t i = 0; i < kMembers; ++i) {
-    if (members_[i].weight == 0.0) continue;
-    estimates[i] = member_estimate(i, lag);
-    if (!first) first = estimates[i];
-    mixture.rate += members_[i].weight * (estimates[i] - *first);
-  }
-  mixture.rate += first.value_or(0.0);
-  for (std::size_t i = 0; i < kMembers; ++i) {
-    if (members_[i].weight == 0.0) continue;
-    const double apart = estimates[i] - mixture.rate;
-    mixture.variance += members_[i].weight * (error_variance_[i][lag] * unit_ + apart * apart);
-  }
-  mixture.variance = std::min(mixture.variance, std::numeric_limits<double>::max());
-  return mixture;
-}
-
-double KalmanBank::member_estimate(std::size_t index, std::size_t lag) const noexcept {
-  const Member& member = members_[index];
-  const auto& g = model_.members[index].smoothing;
-  const std::uint64_t then = count_ - 1 - lag;
-  double estimate = model_.mean + member.prediction[then % kRing];
-  for (std::size_t k = 0; k <= lag; ++k) estimate += g[k] * member.innovation[(then + k) % kRing];
-  return estimate;
 }
 
 }  // namespace gyrod::core

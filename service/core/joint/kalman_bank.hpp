@@ -6,17 +6,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/joint/bank_estimate.hpp"
 #include "core/joint/joint_model.hpp"
 #include "core/joint/joint_options.hpp"
+#include "core/joint/residual_check.hpp"
 #include "core/joint/slow_correction.hpp"
 
 namespace gyrod::core {
-
-/// An estimate of the true rate, and of its error's variance, in the data's unit and its square.
-struct BankEstimate {
-  double rate = 0.0;
-  double variance = 0.0;
-};
 
 /// What is known of x after a sample z[t].
 struct BankEstimates {
@@ -31,7 +27,8 @@ struct BankEstimates {
 ///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
 /// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2), published times
 /// variance_factor. What is left of the step that the last new model made (a fifth less with every sample) is taken back, so that a new model
-/// begins where the last one was, and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed.
+/// begins where the last one was. What the noise cannot have been goes back (residual_check.hpp), and a slow correction (slow_correction.hpp)
+/// makes of that the answer; what it owes stays owed.
 /// Before the first model, three local levels (random walks seen in white noise) answer.
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -73,10 +70,12 @@ class KalmanBank {
   /// What one of the outputs adds to the mixture's mean.
   struct Correction {
     double step = 0.0;  ///< what is left of the step from the last model's answer to the next one's
+    ResidualCheck residual;
     SlowCorrection slow;
   };
 
-  void correct(double sample, Correction& correction, BankEstimate& answer) const noexcept;
+  void correct(double sample, std::size_t lag, Correction& correction, BankEstimate& answer) const noexcept;
+  [[nodiscard]] double expected_variance(std::size_t lag) const noexcept;
   [[nodiscard]] double widened(double variance) const noexcept;
   void scale() noexcept;
   void start() noexcept;

@@ -12,14 +12,18 @@ constexpr double kMostRatio = 1e6;
 
 }  // namespace
 
-double SlowCorrection::apply(double sample, double estimate, double ratio, const JointOptions& options,
+double SlowCorrection::apply(double sample, double estimate, const Trust& trust, const JointOptions& options,
                              const JointScale& scale) noexcept {
-  ratio = std::min(ratio, kMostRatio);
-  steady_ = std::min(ratio, steady_ + (ratio - steady_) / scale.steady_memory(options.steady_memory));
+  const double settled = std::min(trust.settled, kMostRatio);
+  const double expected = std::clamp(trust.expected, settled, kMostRatio);
+  steady_ = std::min(settled, steady_ + (settled - steady_) / scale.steady_memory(options.steady_memory));
+  const double now = std::min(trust.now, kMostRatio);
+  const double steadiness =
+      expected > 0.0 ? steady_ * steady_ * steady_ * settled / expected * std::max(now / expected, 1.0) : 0.0;
   const double rate =
       std::max({scale.correction_rate(options.correction_rate),
-                std::min(options.correction_share * ratio, kMostCorrection),
-                std::min(options.steady_correction * steady_ * steady_, options.most_steady_correction)});
+                std::min(options.correction_share * now, kMostCorrection),
+                std::min(options.steady_correction * steadiness, options.most_steady_correction)});
   paid_ = rate * (owed_ + sample - estimate);
   const double answer = estimate + paid_;
   owed_ += sample - answer;

@@ -5,18 +5,26 @@
 
 namespace gyrod::core {
 
-/// Of one output. It makes of an estimate e of variance P, and the sample z that it is of, the answer
+/// How much an estimate rests on the samples: variances of its error over the noise's, at least 0; may be infinite.
+struct Trust {
+  double now = 0.0;       ///< P, with what the members differ by
+  double expected = 0.0;  ///< P as the members expect it
+  double settled = 0.0;   ///< the same with the largest look-ahead there is
+};
+
+/// Of one output. It makes of an estimate e and the sample z that it is of the answer
 ///   out = e + c (owed + z - e),   owed <- owed + z - out,
-///   c = max(correction_rate, correction_share r, min(steady_correction s^2, most_steady_correction)),
-///   r = P / noise variance,   s <- min(r, s + (r - s) / steady_memory),
+///   c = max(correction_rate, correction_share now, min(steady_correction s^3 b, most_steady_correction)),
+///   s <- min(settled, s + (settled - s) / steady_memory),   b = settled / expected max(1, now / expected),
 /// with the rate and the memory at the model's scale: what no model expects still arrives, and the sum of the answers stays with that of
 /// the samples. A filter weighs motion against noise, and what is as small as the noise comes out smaller; where the error has been large
-/// for long, slow noise hardly adds to it.
+/// for long, as on a road that shakes, slow noise hardly adds to it. The error with look-ahead tells such a road from a turn. An answer with
+/// less look-ahead is given back less, as the same noise weighs more in it, and one that the members dispute more.
 /// A plain value; finite for finite arguments.
 class SlowCorrection {
  public:
-  /// @param ratio r, at least 0; may be infinite @return out
-  [[nodiscard]] double apply(double sample, double estimate, double ratio, const JointOptions& options,
+  /// @return out
+  [[nodiscard]] double apply(double sample, double estimate, const Trust& trust, const JointOptions& options,
                              const JointScale& scale) noexcept;
   /// What the last answer was given.
   [[nodiscard]] double paid() const noexcept { return paid_; }

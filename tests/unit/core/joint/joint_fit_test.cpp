@@ -1,6 +1,8 @@
 #include "core/joint/joint_fit.hpp"
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -72,6 +74,28 @@ TEST(JointFit, TakesTheNoiseOffASwing) {
   const JointOutput out = testing::run_joint(z, core::white_noise(0.25), 16, kWindow);
   EXPECT_LT(testing::rms_difference(out.denoised, truth, 1200, 3900), 0.2);
   EXPECT_LT(testing::rms_difference(out.realtime, truth, 1200, 3900), 0.3);
+}
+
+// Residuals are noise, unless the user or a moved line of the noise says that motion is left out.
+TEST(JointFit, KnowsWhatResidualsMayBe) {
+  const Signal z = testing::sum(testing::white_noise(kWindow, 3), testing::tone(kWindow, 0.2), 2.0);
+  JointModel model;
+  WindowReport report;
+  JointFit fit(kWindow);
+  fit.fit(z, core::white_noise(1.0), model, report);
+  EXPECT_DOUBLE_EQ(model.residual_variance, model.noise_variance);
+  fit.set_max_signal(0.1);
+  fit.fit(z, core::white_noise(1.0), model, report);
+  EXPECT_EQ(model.residual_variance, std::numeric_limits<double>::infinity());
+  fit.set_max_signal(1.0);
+  NoiseModel line = core::white_noise(1.0);  // of the tone's power, not quite where the tone is
+  const auto block = testing::oscillation(0.97, 2.0 * std::numbers::pi * 0.22, 1.0);
+  line.colour_order = 2;
+  line.colour = {block.a[0], block.a[1]};
+  line.colour_variance = 1.0;
+  line.colour_variance = 2.0 / (core::noise_variance(line) - 1.0);
+  fit.fit(z, line, model, report);
+  EXPECT_GT(model.residual_variance, 1.2 * model.noise_variance);
 }
 
 // Nothing can be told from a sensor that is stuck.

@@ -210,5 +210,30 @@ TEST(JointGuards, TakesATurnNoLaterThanTheButterworthTunedForTheDrive) {
   EXPECT_LE(ours.peak_error_dps, theirs.peak_error_dps);
 }
 
+// A tap on the housing, 200 deg/s out of rest: what no window has seen. Smeared by the filters, it made errors of 3 to 21 deg/s around it,
+// where raw has 0.35.
+TEST(JointGuards, AKnockMakesNothingMuchWorseThanRaw) {
+  constexpr std::size_t kFirst = 2500;
+  constexpr std::size_t kApart = 700;
+  constexpr std::size_t kKnocks = 6;
+  Signal truth(kFirst + kKnocks * kApart, 0.0);
+  for (std::size_t k = 0; k < kKnocks; ++k) {
+    const double angle = 0.7 + 0.4 * static_cast<double>(k);
+    for (std::size_t n = 0; n < 60; ++n) {
+      const auto t = static_cast<double>(n);
+      truth[kFirst + k * kApart + n] = 200.0 * std::exp(-t / 6.0) * std::sin(angle * t + 1.0);
+    }
+  }
+  const Signal z = testing::sum(truth, testing::white_noise(truth.size(), 5), kNoise);
+  const JointOutput out = run(z);
+  for (const Signal* estimate : {&out.realtime, &out.denoised}) {
+    for (std::size_t k = 0; k < kKnocks; ++k) {
+      const std::size_t begin = kFirst + k * kApart;
+      EXPECT_LT(testing::rms_difference(*estimate, truth, begin - 40, begin + 100), 1.3 * kNoise) << k;
+      EXPECT_LT(testing::rms_difference(*estimate, truth, begin - 300, begin - 40), 1.1 * kNoise) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gyrod

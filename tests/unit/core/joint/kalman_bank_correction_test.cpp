@@ -21,12 +21,13 @@ using testing::simulated;
 using testing::single;
 
 constexpr double kMemory = 50.0;
+constexpr double kShare = 10.0;
 
 JointOptions correcting() {
   JointOptions options = bare();
   options.correction_rate = 0.006;
   options.correction_share = 0.04;
-  options.steady_correction = 1.0;
+  options.steady_correction = kShare;
   options.most_steady_correction = 0.04;
   options.steady_memory = kMemory;
   return options;
@@ -47,6 +48,7 @@ class Rates {
   Rates() : plain_(bare(), 0), bank_(correcting(), 0) {}
 
   void use(const JointModel& model) {
+    settled_ = model.member(core::MemberKind::kFull).error_variance(core::kMaxLag) / kBankNoise;
     plain_.use(model);
     bank_.use(model);
   }
@@ -54,46 +56,51 @@ class Rates {
     const core::BankEstimate e = plain_.step(sample).realtime;
     const double out = bank_.step(sample).realtime.rate;
     const double rate = (out - e.rate) / (owed_ + sample - e.rate);
-    ratio_ = e.variance / kBankNoise;
+    expected_ = e.variance / kBankNoise;
     owed_ += sample - out;
     return rate;
   }
-  /// Variance over the noise's, constant under one model of one member.
-  [[nodiscard]] double ratio() const { return ratio_; }
+  /// Variance over the noise's, without look-ahead and with the largest there is: constant under one model of one member.
+  [[nodiscard]] double expected() const { return expected_; }
+  [[nodiscard]] double settled() const { return settled_; }
+  /// c where the least of late is s.
+  [[nodiscard]] double rate_at(double s) const {
+    return std::max({0.006, 0.04 * expected_, std::min(kShare * s * s * s * settled_ / expected_, 0.04)});
+  }
 
  private:
   KalmanBank plain_;
   KalmanBank bank_;
   double owed_ = 0.0;
-  double ratio_ = 0.0;
+  double expected_ = 0.0;
+  double settled_ = 0.0;
 };
 
-// With P constant the least of late comes up to it as 1 - (1 - 1/M)^t, and the rate with its square.
+// With P constant the least of late comes up to it as 1 - (1 - 1/M)^t, and the rate with its cube.
 TEST(KalmanBankCorrection, IsFasterTheLongerTheVarianceHasBeenLarge) {
   Rates rates;
-  rates.use(moving(0.03));
+  rates.use(moving(0.1));
   double before = 0.0;
   int t = 0;
   for (const double sample : simulated(blocks(), 600, 4)) {
     const double rate = rates.step(sample);
-    const double steady = rates.ratio() * (1.0 - std::pow(1.0 - 1.0 / kMemory, ++t));
-    const double expected = std::max({0.006, 0.04 * rates.ratio(), std::min(steady * steady, 0.04)});
+    const double expected = rates.rate_at(rates.settled() * (1.0 - std::pow(1.0 - 1.0 / kMemory, ++t)));
     ASSERT_NEAR(rate, expected, 1e-6 * expected) << t;
     ASSERT_GE(expected, before);
     before = expected;
   }
-  EXPECT_GT(before, 1.5 * std::max(0.006, 0.04 * rates.ratio())) << "the square counts";
+  EXPECT_GT(before, 1.2 * std::max(0.006, 0.04 * rates.expected())) << "the cube counts";
 }
 
 // A turn between straight stretches makes P large for a moment: no reason to let the noise of slow motion through.
 TEST(KalmanBankCorrection, ForgetsAtOnceThatTheVarianceWasLarge) {
   Rates rates;
-  rates.use(moving(0.03));
+  rates.use(moving(0.1));
   const Signal z = simulated(blocks(), 600, 4);
   for (std::size_t t = 0; t < 300; ++t) rates.step(z[t]);
   rates.use(moving(0.001));
   const double rate = rates.step(z[300]);
-  EXPECT_NEAR(rate, std::max({0.006, 0.04 * rates.ratio(), rates.ratio() * rates.ratio()}), 1e-9);
+  EXPECT_NEAR(rate, rates.rate_at(rates.settled()), 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+// What the bank makes of its members' answers.
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+#include <optional>
+
+#include "core/joint/kalman_bank.hpp"
+
+namespace gyrod::core {
+
+/// Of x[t - lag], t the newest sample, without the slow correction.
+BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
+  std::array<double, kMembers> estimates{};
+  BankEstimate mixture;
+  // Differences to it are weighed: where all agree, that is the answer to the last bit.
+  std::optional<double> first;
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (members_[i].weight == 0.0) continue;
+    estimates[i] = member_estimate(i, lag);
+    if (!first) first = estimates[i];
+    mixture.rate += members_[i].weight * (estimates[i] - *first);
+  }
+  mixture.rate += first.value_or(0.0);
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (members_[i].weight == 0.0) continue;
+    const double apart = estimates[i] - mixture.rate;
+    mixture.variance += members_[i].weight * (error_variance_[i][lag] * unit_ + apart * apart);
+  }
+  mixture.variance = std::min(mixture.variance, std::numeric_limits<double>::max());
+  return mixture;
+}
+
+double KalmanBank::member_estimate(std::size_t index, std::size_t lag) const noexcept {
+  const Member& member = members_[index];
+  const auto& g = model_.members[index].smoothing;
+  const std::uint64_t then = count_ - 1 - lag;
+  double estimate = model_.mean + member.prediction[then % kRing];
+  for (std::size_t k = 0; k <= lag; ++k) estimate += g[k] * member.innovation[(then + k) % kRing];
+  return estimate;
+}
+
+BankEstimate KalmanBank::held(std::size_t age) const noexcept {
+  assert(age <= lag_ && age < count_);
+  BankEstimate estimate = combine(age);
+  estimate.rate += denoised_correction_.step;
+  ResidualCheck check = denoised_correction_.residual;
+  estimate = check.apply(sample_at(count_ - 1 - age), estimate, model_.residual_variance * unit_, options_);
+  estimate.rate += denoised_correction_.slow.paid();
+  estimate.variance = widened(estimate.variance);
+  return estimate;
+}
+
+void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
+                         BankEstimate& answer) const noexcept {
+  correction.step *= options_.hand_over_memory;
+  answer.rate += correction.step;
+  const double noise = model_.noise_variance * unit_;
+  const Trust trust = noise > 0.0 ? Trust{.now = answer.variance / noise,
+                                          .expected = expected_variance(lag) / noise,
+                                          .settled = expected_variance(kMaxLag) / noise}
+                                  : Trust{};
+  answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_, options_);
+  answer.rate = correction.slow.apply(sample, answer.rate, trust, options_, model_.scale);
+  answer.variance = widened(answer.variance);
+}
+
+/// P_L of the members, as far as they agree.
+double KalmanBank::expected_variance(std::size_t lag) const noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (members_[i].weight > 0.0) sum += members_[i].weight * error_variance_[i][lag];
+  }
+  return sum * unit_;
+}
+
+double KalmanBank::widened(double variance) const noexcept {
+  return std::min(variance * options_.variance_factor, std::numeric_limits<double>::max());
+}
+
+}  // namespace gyrod::core

@@ -1,0 +1,33 @@
+#include "core/joint/residual_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gyrod::core {
+namespace {
+
+/// Most that one residual may say, d^2 / R: a million deviations. A knock is over soon, and is to be forgotten soon.
+constexpr double kMostSquare = 1e12;
+/// Most that one residual adds to the mean, d^2 / R.
+constexpr double kMostToMean = 100.0;
+
+}  // namespace
+
+BankEstimate ResidualCheck::apply(double sample, BankEstimate estimate, double expected_variance,
+                                  const JointOptions& options) noexcept {
+  if (!(expected_variance > 0.0) || !std::isfinite(expected_variance)) return estimate;
+  const double residual = sample - estimate.rate;
+  const double square = std::min(residual * residual / expected_variance, kMostSquare);
+  mean_square_ += (std::min(square, kMostToMean) - mean_square_) / options.residual_memory;
+  const double alone = square > options.residual_limit ? square : 0.0;
+  const double lately = mean_square_ > options.residual_mean_limit ? mean_square_ : 0.0;
+  if (alone == 0.0 && lately == 0.0) return estimate;
+  double weight = 0.0;
+  if (alone > 0.0) weight = 1.0 - options.residual_limit / alone;
+  if (lately > 0.0) weight = std::max(weight, 1.0 - options.residual_mean_limit / lately);
+  const double off = std::max(alone, lately) - 1.0;  // the estimate's own error squared, in parts of R
+  const double variance = expected_variance * ((1.0 - weight) * (1.0 - weight) * off + weight * weight);
+  return {.rate = estimate.rate + weight * residual, .variance = std::max(estimate.variance, variance)};
+}
+
+}  // namespace gyrod::core

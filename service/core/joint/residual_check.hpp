@@ -1,0 +1,27 @@
+/// Whether the noise can be what an estimate took away. Internal to core/joint.
+#pragma once
+
+#include "core/joint/bank_estimate.hpp"
+#include "core/joint/joint_options.hpp"
+
+namespace gyrod::core {
+
+/// Of one output. What a good estimate e takes off a sample z is noise, of a variance R that is known: d^2 / R with d = z - e is 1 at the
+/// most in the mean, and seldom above 16. Where it is more, e is what is wrong: a knock that no model expected, smeared by the filters over
+/// what came before and after it. There the sample counts by as much as e is the worse of the two:
+///   e + w d,   w = max(0, 1 - residual_limit R / d^2, 1 - residual_mean_limit / m),   m <- m + (d^2 / R - m) / residual_memory,
+/// whose error is never larger than sqrt(residual_limit R), and that of the sample where e is far off.
+/// A plain value; finite for finite arguments.
+class ResidualCheck {
+ public:
+  /// @param expected_variance R, and the variance of what else the estimate leaves out on purpose; 0 while unknown, infinite where
+  /// anything may be left out: then the estimate stays as it is
+  /// @return e + w d; where w > 0, with a variance that knows of both
+  [[nodiscard]] BankEstimate apply(double sample, BankEstimate estimate, double expected_variance,
+                                   const JointOptions& options) noexcept;
+
+ private:
+  double mean_square_ = 1.0;  ///< m
+};
+
+}  // namespace gyrod::core

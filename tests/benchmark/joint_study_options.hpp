@@ -1,0 +1,62 @@
+/// What the command line of joint_study says.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <type_traits>
+
+#include "core/joint/joint_options.hpp"
+
+namespace gyrod::benchmark {
+
+using Arguments = std::map<std::string, std::string>;
+
+inline double number(const Arguments& arguments, const std::string& key, double standard) {
+  const auto found = arguments.find(key);
+  return found == arguments.end() ? standard : std::stod(found->second);
+}
+
+/// The estimator's, as far as arguments are called like them.
+inline core::JointOptions options_of(const Arguments& arguments) {
+  core::JointOptions options;
+  const auto set = [&arguments](const char* key, auto& member) {
+    member = static_cast<std::decay_t<decltype(member)>>(number(arguments, key, static_cast<double>(member)));
+  };
+  options.hop_samples = static_cast<std::size_t>(number(arguments, "hop", 32));
+  set("least_excess", options.least_excess);
+  set("slow_period_samples", options.slow_period_samples);
+  set("tapers", options.tapers);
+  set("recency", options.recency);
+  set("full_iterations", options.full_iterations);
+  set("pruned_iterations", options.pruned_iterations);
+  set("shrinkage", options.shrinkage);
+  set("bandwidth_cycles", options.bandwidth_cycles);
+  set("line_pole", options.line_pole);
+  set("prune_gain", options.prune_gain);
+  set("pole_factor", options.pole_factor);
+  set("level_pole", options.level_pole);
+  set("slope_pole", options.slope_pole);
+  set("agile_drive", options.agile_drive);
+  set("drive_ratio", options.drive_ratio);
+  set("agile_log_prior", options.agile_log_prior);
+  set("drive_log_prior", options.drive_log_prior);
+  set("hand_over_memory", options.hand_over_memory);
+  set("still_log_prior", options.still_log_prior);
+  set("switching_rate", options.switching_rate);
+  set("likelihood_power", options.likelihood_power);
+  set("most_evidence", options.most_evidence);
+  set("hand_over_samples", options.hand_over_samples);
+  set("correction_rate", options.correction_rate);
+  set("correction_share", options.correction_share);
+  set("steady_correction", options.steady_correction);
+  set("most_steady_correction", options.most_steady_correction);
+  set("steady_memory", options.steady_memory);
+  set("residual_limit", options.residual_limit);
+  set("residual_mean_limit", options.residual_mean_limit);
+  set("residual_memory", options.residual_memory);
+  set("variance_factor", options.variance_factor);
+  return options;
+}
+
+}  // namespace gyrod::benchmark
