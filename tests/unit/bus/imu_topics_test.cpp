@@ -13,7 +13,7 @@
 #include "bus/topic_writer.hpp"
 #include "support/eventually.hpp"
 #include "support/imu_node.hpp"
-#include "unit/bus/bus_test.hpp"
+#include "unit/bus/imu_topics_fixture.hpp"
 
 namespace gyrod::bus::test {
 namespace {
@@ -24,71 +24,6 @@ using testing::imu_message;
 using testing::ImuPublisher;
 using testing::ImuSubscription;
 using ::testing::IsEmpty;
-
-/// Accepts what is not negative on x; what is negative on y another daemon serves.
-class Handler final : public ImuHandler {
- public:
-  Fate on_sample(std::string_view sensor, const stream::Sample& sample) noexcept override {
-    collector_.add(sensor, {&sample, 1});
-    if (sample.rate_radps[0] < 0.0) return Fate::kDoesNot;
-    return sample.rate_radps[1] < 0.0 ? Fate::kMayLeave : Fate::kLeaves;
-  }
-  void on_end(std::string_view sensor) noexcept override { collector_.end(sensor); }
-  void on_broken_promise(std::string_view sensor, stream::ChannelState why) noexcept override {
-    collector_.break_promise(sensor, why);
-  }
-  void on_topic(std::string_view topic, const ros2::Outputs& /*outputs*/) noexcept override {
-    const std::lock_guard lock(mutex_);
-    opened_.emplace_back(topic);
-  }
-  void on_refused_topic(std::string_view reason) noexcept override {
-    const std::lock_guard lock(mutex_);
-    refused_.emplace_back(reason);
-  }
-
-  [[nodiscard]] Collector<stream::Sample>& collector() { return collector_; }
-  [[nodiscard]] std::vector<std::string> opened() {
-    const std::lock_guard lock(mutex_);
-    return opened_;
-  }
-  [[nodiscard]] std::vector<std::string> refused() {
-    const std::lock_guard lock(mutex_);
-    return refused_;
-  }
-
- private:
-  std::mutex mutex_;
-  Collector<stream::Sample> collector_;
-  std::vector<std::string> opened_;
-  std::vector<std::string> refused_;
-};
-
-class ImuTopicsTest : public BusTest {
- protected:
-  ImuTopicsTest() { options_.realtime = true; }
-
-  [[nodiscard]] std::string topic(const std::string& name) const { return prefix_ + name; }
-
-  /// A publisher that the topics know of, too.
-  [[nodiscard]] std::unique_ptr<ImuPublisher> publisher(const ImuTopics& topics, const std::string& name) {
-    const std::size_t before = topics.snapshot().matched_writers;
-    auto made = std::make_unique<ImuPublisher>(writer_domain_.participant(), topic(name));
-    EXPECT_TRUE(made->wait_for_reader());
-    wait_until([&] { return topics.snapshot().matched_writers == before + 1; });
-    return made;
-  }
-
-  static stream::DenoisedSample denoised(std::int64_t stamp_ns) {
-    stream::DenoisedSample sample;
-    sample.stamp_ns = stamp_ns;
-    return sample;
-  }
-
-  std::string prefix_ = "rt/t" + std::to_string(getpid()) + "/";
-  Domain reader_domain_ = reader_domain();
-  Domain writer_domain_ = writer_domain();
-  Handler handler_;
-};
 
 TEST_P(ImuTopicsTest, AMessageThatIsNotAcceptedIsGivenUpAndTheOthersKeepTheirFields) {
   options_.ros2.topics = {topic("imu")};
