@@ -10,7 +10,7 @@ namespace gyrod::core {
 /// most in the mean, and seldom above 16. Where it is more, e is what is wrong: a knock that no model expected, smeared by the filters over
 /// what came before and after it. There the sample counts by as much as e is the worse of the two:
 ///   e + w d,   w = max(0, 1 - residual_limit R / d^2, 1 - residual_mean_limit / m),   m <- m + (d^2 / R - m) / residual_memory,
-/// whose error is never larger than sqrt(residual_limit R), and that of the sample where e is far off.
+/// which is never farther from the sample than sqrt(residual_limit R), and the nearer the farther off e is.
 /// A plain value; finite for finite arguments.
 class ResidualCheck {
  public:
