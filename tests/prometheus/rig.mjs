@@ -52,6 +52,7 @@ export class Rig {
   start(name, program, args) {
     const child = spawn("setpriv", ["--pdeathsig", "KILL", program, ...args], { cwd: this.folder, stdio: ["pipe", "pipe", "pipe"] });
     const log = createWriteStream(this.path(`${name}.log`));
+    child.name = name;
     child.said = "";
     for (const stream of [child.stdout, child.stderr]) {
       stream.on("data", (text) => {
@@ -62,6 +63,11 @@ export class Rig {
     child.over = new Promise((over) => child.once("close", over));
     this.children.push(child);
     return child;
+  }
+
+  /** What the last program of that name has said until now. */
+  said(name) {
+    return this.children.findLast((child) => child.name === name)?.said ?? "nothing";
   }
 
   gyrod(name, ...args) {

@@ -13,7 +13,7 @@
 
 namespace gyrod::monitor::test {
 
-class ApiTest : public testing::Test {
+class ApiTest : public ::testing::Test {
  protected:
   using json = nlohmann::json;
 

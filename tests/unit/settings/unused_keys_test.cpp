@@ -8,8 +8,8 @@
 namespace gyrod::settings {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::vector<std::string> unused(std::string_view text) {
   const Outcome outcome = read_settings(text, "/");
