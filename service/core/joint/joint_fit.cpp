@@ -34,6 +34,7 @@ JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
       emd_(max_samples, options.emd),
       tapers_(max_samples, options.tapers, options.recency),
       whittle_(tapers_.transform_samples(), options.bandwidth_cycles),
+      knocks_(max_samples),
       centred_(max_samples),
       imf_(max_samples),
       slow_(max_samples),
@@ -60,6 +61,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   centred_.resize(window.size());
   for (std::size_t n = 0; n < window.size(); ++n) centred_[n] = window[n] - report.mean;
   if (std::ranges::all_of(centred_, [](double value) { return value == 0.0; })) return;
+  knocks_.apply(centred_, options_);
   tapers_.spectrum(centred_, periodogram_);
   judge_noise(noise, model.noise, report);
   const Tone tone = find_tone(periodogram_);

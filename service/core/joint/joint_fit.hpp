@@ -10,6 +10,7 @@
 #include "core/emd/emd.hpp"
 #include "core/joint/joint_model.hpp"
 #include "core/joint/joint_options.hpp"
+#include "core/joint/knock_bridge.hpp"
 #include "core/joint/noise_peak.hpp"
 #include "core/joint/recency_tapers.hpp"
 #include "core/joint/tone.hpp"
@@ -71,6 +72,7 @@ class JointFit {
   RecencyTapers tapers_;
   WhittleFit whittle_;
   MemberDesigner designer_;
+  KnockBridge knocks_;
   std::vector<double> centred_;
   std::vector<double> imf_;
   std::vector<double> slow_;

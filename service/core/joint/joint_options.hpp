@@ -91,6 +91,11 @@ struct JointOptions {
   double residual_mean_limit = 2.0;
   /// Samples of that mean: enough for it to stay below 2 by chance (a standard deviation of 0.25), few enough for a knock. Range 1..1e9.
   double residual_memory = 16.0;
+  /// A window's samples are a knock, and left out of its fit, where their squared second differences, smoothed, are above knock_tail times
+  /// the median and reach knock_ratio times it, and where knocks are at most knock_share of the window. Range 1..1e12; 1..1e12; 0..1.
+  double knock_ratio = 100.0;
+  double knock_tail = 5.0;
+  double knock_share = 0.25;
 };
 
 /// Which options hold for a sample rate and a window. Those that mean a time keep it at rates above the design's, those that a short window
