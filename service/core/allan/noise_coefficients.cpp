@@ -71,16 +71,16 @@ double in_degrees_and_hours(NoiseTerm term, double value) noexcept {
 }
 
 NoiseCoefficients polynomial_coefficients(std::span<const AllanPoint> points) {
-  constexpr auto kFewestPoints = kNoiseTerms + 1;
-  constexpr auto kTerms = static_cast<Eigen::Index>(kNoiseTerms);
-  if (points.size() < kFewestPoints) return {};
+  constexpr auto kFewest = kNoiseTerms + 1;
+  constexpr auto kColumns = static_cast<Eigen::Index>(kNoiseTerms);
+  if (points.size() < kFewest) return {};
   const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd powers(count, kTerms);
+  Eigen::MatrixXd powers(count, kColumns);
   Eigen::VectorXd deviation(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const AllanPoint& point = points[static_cast<std::size_t>(i)];
     deviation(i) = point.deviation;
-    for (Eigen::Index n = 0; n < kTerms; ++n) {
+    for (Eigen::Index n = 0; n < kColumns; ++n) {
       powers(i, n) = std::pow(point.tau_s, 0.5 * static_cast<double>(n - 2));
     }
   }
@@ -88,11 +88,12 @@ NoiseCoefficients polynomial_coefficients(std::span<const AllanPoint> points) {
   const Eigen::VectorXd scale = powers.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd scaled = powers * scale.asDiagonal();
   const Eigen::VectorXd solution = scaled.colPivHouseholderQr().solve(deviation);
-  const double residual = (scaled * solution - deviation).squaredNorm() / static_cast<double>(count - kTerms);
+  const double residual =
+      (scaled * solution - deviation).squaredNorm() / static_cast<double>(count - kColumns);
   const Eigen::MatrixXd inverse =
-      (scaled.transpose() * scaled).ldlt().solve(Eigen::MatrixXd::Identity(kTerms, kTerms));
+      (scaled.transpose() * scaled).ldlt().solve(Eigen::MatrixXd::Identity(kColumns, kColumns));
   NoiseCoefficients coefficients;
-  for (Eigen::Index n = 0; n < kTerms; ++n) {
+  for (Eigen::Index n = 0; n < kColumns; ++n) {
     // A term alone has sigma = coefficient * sqrt(variance_per_square): that at 1 s turns A_n into it.
     const double unit = std::sqrt(variance_per_square(static_cast<NoiseTerm>(n), 1.0));
     const double error = std::sqrt(std::max(0.0, residual * inverse(n, n)));

@@ -10,9 +10,10 @@
 namespace gyrod::core {
 
 /// A knock of a hundred times the noise fills the spectrum of the window that holds it, and the fit would then expect that much of every
-/// sample, for as long as the knock is in the window. With e the squared second differences of the window and m their means over 9 samples:
-/// a knock is a run of samples with m above knock_tail times its median that reaches knock_ratio times it. Straight lines take the
-/// place of knocks, unless they are more than knock_share of the window: then shaking is what the window is about.
+/// sample to come, for as long as the knock is in the window. With e the squared second differences of the window and m their means over 9
+/// samples: a knock is a run of samples with m above knock_tail times its median that reaches knock_ratio times it, and is over before the
+/// window is; what is not over may be a vibration that has begun. Straight lines take the place of knocks, unless they are more than
+/// knock_share of the window: then shaking is what the window is about.
 /// Sizes its workspace once; apply() allocates nothing. One object per worker; not thread-safe.
 class KnockBridge {
  public:
