@@ -4,7 +4,7 @@
 #   bash tests/run.sh                 all stages, as the continuous integration does
 #   bash tests/run.sh release asan    only these stages
 #
-# Stages: format release asan tsan demo tidy; and analyze (clang's static analyzer), by name alone, as it takes as long as two others.
+# Stages: format release asan tsan demo tidy; and analyze (clang's static analyzer), by name alone, as it takes long.
 # Real recordings are looked for in GYROD_DATA (default ../shared/data); tests that want one say so and skip where it is absent.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -32,7 +32,7 @@ configure_tidy() {
 }
 tidy_sources() { sed -n 's/^ *"file": "\(.*\)",\?$/\1/p' build/tidy/compile_commands.json | grep -E "^$PWD/service/|/service/.*/Unity/" | sort -u; }
 
-# All but the analyzer, which takes a source that is included for a header, and most of the time.
+# All but the analyzer, which takes a source that is included for a header.
 stage_tidy() {
   configure_tidy ON
   tidy_sources | xargs -P "$jobs" -n 1 clang-tidy-22 --quiet -p build/tidy '--checks=-clang-analyzer-*,-bugprone-suspicious-include' 2>/dev/null

@@ -5,17 +5,19 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { dashboardExpressions, selectorsOf } from "./expressions.mjs";
 import { recording } from "./faults.mjs";
-import { hasty, writeHastyRules } from "./hasty_rules.mjs";
+import { hasty, kHaste, writeHastyRules } from "./hasty_rules.mjs";
 import { Rig, ask, eventually } from "./rig.mjs";
 
 const kSpeed = 8; // of sensors with a fault; health is judged once a second, so that a fault has to last for longer
 const kDriveSpeed = 20;
 const kDrive_s = 600;
+const kDown_ms = 120e3 / kHaste / 2; // half of the two minutes that raise GyrodDown: scrapes and rules take their time, too
 const kLearned = 8500; // samples after which the bias of a sensor at rest is known
 
 const rig = new Rig();
 let prometheus;
 let driving_ms;
+let away_ms;
 after(() => rig.stop());
 
 const quick = { denoise: { window_samples: 256, hop_samples: 64 }, limits: { max_hop_samples: 128 }, health: { noisy_after_s: 5, loss_window_s: 2 } };
@@ -75,19 +77,23 @@ async function fired() {
     .sort();
 }
 
-/** Three times ended and begun anew, at the same address. */
+/** Three times ended and begun anew, at the same address. @return the longest that it was away, ms */
 async function restartThrice(daemon) {
   const port = Number(daemon.address.split(":")[1]);
+  let longest_ms = 0;
   for (let n = 0; n < 3; ++n) {
     const begin = await ask(prometheus, 'process_start_time_seconds{vehicle="restarting"}');
+    const end_ms = Date.now();
     daemon.child.kill("SIGTERM");
     await daemon.child.over;
     daemon = await rig.daemon("restarting", { monitor: { port } });
+    longest_ms = Math.max(longest_ms, Date.now() - end_ms);
     await eventually("the restart shows", async () => {
       const now = await ask(prometheus, 'process_start_time_seconds{vehicle="restarting"}');
       return now[0]?.value[1] > begin[0].value[1];
     });
   }
+  return longest_ms;
 }
 
 before(async () => {
@@ -114,7 +120,7 @@ before(async () => {
   await eventually("the one that falls silent has been heard", async () => (await ask(prometheus, 'gyrod_sensor_health{sensor="mute"} == 0')).length > 0);
   started.mute.kill("SIGSTOP"); // it lives and says nothing
   off.child.kill("SIGTERM");
-  await restartThrice(restarting);
+  away_ms = await restartThrice(restarting);
 });
 
 test("each fault raises its own alert and no other, and a drive none", async () => {
@@ -123,7 +129,9 @@ test("each fault raises its own alert and no other, and a drive none", async () 
     return expected.every((alert) => now.includes(alert));
   }).catch(() => {});
   await eventually("the drive is long enough", () => ((Date.now() - driving_ms) / 1000) * kDriveSpeed > kDrive_s);
-  const now = await fired();
+  // A busy machine restarts it in more than what are two minutes here: then it has been down, and that is said rightly.
+  const mayBeDown = away_ms > kDown_ms;
+  const now = (await fired()).filter((alert) => !(mayBeDown && alert === "restarting: GyrodDown"));
   const surprising = new Set(now.filter((alert) => !expected.includes(alert)).map((alert) => alert.split(/[ :]/)[0]));
   for (const vehicle of surprising) console.log(`gyrod of ${vehicle} said:\n${rig.said(`gyrod-${vehicle}`)}`);
   assert.deepEqual(now, expected);
