@@ -72,6 +72,10 @@ class Rig : public ::testing::Test {
   [[nodiscard]] static double of(const Process& daemon, const std::string& series) {
     return metric(daemon, series).value_or(-1.0);
   }
+  /// Whether the daemon has found somebody who reads this topic of its output: what it publishes earlier is lost where nothing is repaired.
+  [[nodiscard]] static bool has_reader(const Process& daemon, const std::string& topic) {
+    return of(daemon, "gyrod_bus_matched_readers{topic=\"" + topic + "\"}") >= 1.0;
+  }
   /// Whether, in one answer of the daemon, received = published + rejected + in flight.
   [[nodiscard]] static bool is_balanced(const Process& daemon);
   /// Body of a GET on the daemon's port; empty if that fails.

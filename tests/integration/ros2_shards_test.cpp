@@ -56,7 +56,10 @@ TEST_F(Ros2Shards, EachMessageComesOnceWhileItsTopicChangesHands) {
   const auto alone = start_one("");
   ASSERT_TRUE(
       eventually([&] { return denoised_.matched_writers() == 1 && realtime_.matched_writers() == 1; }));
-  ASSERT_TRUE(eventually([&] { return of(*alone, "gyrod_bus_matched_writers") == 1.0; }));
+  ASSERT_TRUE(eventually([&] {
+    return of(*alone, "gyrod_bus_matched_writers") == 1.0 && has_reader(*alone, "rt/imu/data_denoised") &&
+           has_reader(*alone, "rt/imu/data_realtime");
+  }));
   driver_.start();
   ASSERT_TRUE(more_come(700));
   const std::string shard = fleet::holds({1, 2}, kTopic) ? "1/2" : "2/2";

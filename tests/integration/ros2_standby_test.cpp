@@ -23,6 +23,11 @@ class Ros2Standby : public StandbyPair {
     start_two();
     ASSERT_TRUE(
         eventually([&] { return denoised_.matched_writers() == 2 && realtime_.matched_writers() == 2; }));
+    for (const auto* daemon : {&first_, &second_}) {
+      ASSERT_TRUE(eventually([&] {
+        return has_reader(**daemon, "rt/imu/data_denoised") && has_reader(**daemon, "rt/imu/data_realtime");
+      }));
+    }
     ASSERT_TRUE(eventually([&] { return have_the_driver(); }));
     driver_.start();
     ASSERT_TRUE(more_come(300));

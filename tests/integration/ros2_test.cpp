@@ -49,6 +49,11 @@ class Ros2 : public Rig {
     ASSERT_TRUE(publisher.wait_for_reader());
     ASSERT_TRUE(eventually([&daemon] { return count(daemon, "gyrod_bus_matched_writers") == 1.0; }));
   }
+  /// The same of a subscription to an output.
+  static void connect(const Process& daemon, const ImuSubscription& subscription, const std::string& topic) {
+    ASSERT_TRUE(subscription.wait_for_writer());
+    ASSERT_TRUE(eventually([&] { return has_reader(daemon, topic); }));
+  }
   static void wait_for_its_end(const Process& daemon) {
     ASSERT_TRUE(eventually([&daemon] { return count(daemon, "gyrod_bus_matched_writers") == 0.0; }));
   }
@@ -109,7 +114,8 @@ TEST_F(Ros2, ATopicIsDenoisedAsItsRecordingAndNothingElseOfAMessageChanges) {
   const auto daemon = start_daemon({.patch = R"({"bus": {"ros2": {"topics": ["rt/car/imu/data_raw"]}}})"});
   ImuSubscription denoised(participant(), "rt/car/imu/data_denoised");
   ImuSubscription realtime(participant(), "rt/car/imu/data_realtime");
-  ASSERT_TRUE(denoised.wait_for_writer() && realtime.wait_for_writer());
+  connect(*daemon, denoised, "rt/car/imu/data_denoised");
+  connect(*daemon, realtime, "rt/car/imu/data_realtime");
   {
     const ImuPublisher publisher(participant(), "rt/car/imu/data_raw");
     connect(*daemon, publisher);
@@ -137,7 +143,7 @@ TEST_F(Ros2, MethodPaperReleasesWholeMessagesInBursts) {
   const auto daemon =
       start_daemon({.method = "paper", .patch = R"({"bus": {"ros2": {"topics": ["rt/imu"]}}})"});
   ImuSubscription denoised(participant(), "rt/imu_denoised");
-  ASSERT_TRUE(denoised.wait_for_writer());
+  connect(*daemon, denoised, "rt/imu_denoised");
   {
     const ImuPublisher publisher(participant(), "rt/imu");
     connect(*daemon, publisher);
@@ -158,7 +164,8 @@ TEST_F(Ros2, GapsShowByStampsAndWhatIsRefusedIsCountedAndNotPublished) {
   const auto daemon = start_daemon({.patch = R"({"bus": {"ros2": {"topics": ["rt/imu/data_raw"]}}})"});
   ImuSubscription denoised(participant(), "rt/imu/data_denoised");
   ImuSubscription realtime(participant(), "rt/imu/data_realtime");
-  ASSERT_TRUE(denoised.wait_for_writer() && realtime.wait_for_writer());
+  connect(*daemon, denoised, "rt/imu/data_denoised");
+  connect(*daemon, realtime, "rt/imu/data_realtime");
 
   std::vector<ImuMessage> sent = noisy_imu_messages(1000);
   sent.erase(sent.begin() + 600, sent.begin() + 700);  // longer than limits.max_bridged_samples
@@ -201,7 +208,7 @@ TEST_F(Ros2, TopicsOfAPatternAreOpenedWhileRunningAndOutputsAreNeverRead) {
     ImuSubscription realtime(participant(), "rt/" + car + "/imu/data_realtime");
     const ImuPublisher publisher(participant(), "rt/" + car + "/imu/data_raw");
     connect(*daemon, publisher);
-    ASSERT_TRUE(realtime.wait_for_writer());
+    connect(*daemon, realtime, "rt/" + car + "/imu/data_realtime");
     send(publisher, sent, realtime);
     expect_untouched(realtime.messages(), sent);
   };

@@ -39,9 +39,14 @@ inline BusOptions test_options() {
   const std::string prefix = "test" + std::to_string(getpid()) + "/";
   BusOptions options;
   options.domain_id = kReaderDomain;
-  options.topics = {
-      prefix + "raw",   prefix + "raw_batch", prefix + "denoised",      prefix + "denoised_batch",
-      prefix + "noise", prefix + "realtime",  prefix + "realtime_batch"};
+  options.topics = {.raw = prefix + "raw",
+                    .raw_batch = prefix + "raw_batch",
+                    .denoised = prefix + "denoised",
+                    .denoised_batch = prefix + "denoised_batch",
+                    .noise = prefix + "noise",
+                    .health = prefix + "health",
+                    .realtime = prefix + "realtime",
+                    .realtime_batch = prefix + "realtime_batch"};
   return options;
 }
 

@@ -1,6 +1,7 @@
 /// ROS 2 topics, a publisher of theirs, and a handler that stands for the engine.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -68,6 +69,19 @@ class ImuTopicsTest : public BusTest {
     auto made = std::make_unique<testing::ImuPublisher>(writer_domain_.participant(), topic(name));
     EXPECT_TRUE(made->wait_for_reader());
     wait_until([&] { return topics.snapshot().matched_writers == before + 1; });
+    return made;
+  }
+
+  /// A subscription that the topics know of, too: they send nothing to one that they have not found.
+  [[nodiscard]] std::unique_ptr<testing::ImuSubscription> subscription(const ImuTopics& topics,
+                                                                       const std::string& name) {
+    auto made = std::make_unique<testing::ImuSubscription>(writer_domain_.participant(), topic(name));
+    EXPECT_TRUE(made->wait_for_writer());
+    wait_until([&] {
+      const std::vector<TopicReaders> known = topics.snapshot().matched_readers;
+      return std::ranges::any_of(
+          known, [&](const TopicReaders& of) { return of.topic == topic(name) && of.readers > 0; });
+    });
     return made;
   }
 

@@ -22,7 +22,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::imu_message;
 using testing::ImuPublisher;
-using testing::ImuSubscription;
 using ::testing::IsEmpty;
 
 TEST_P(ImuTopicsTest, AMessageThatIsNotAcceptedIsGivenUpAndTheOthersKeepTheirFields) {
@@ -30,8 +29,7 @@ TEST_P(ImuTopicsTest, AMessageThatIsNotAcceptedIsGivenUpAndTheOthersKeepTheirFie
   ImuTopics topics(reader_domain_, options_);
   ImuSubscriber subscriber(topics, handler_);
   subscriber.start();
-  ImuSubscription output(writer_domain_.participant(), topic("imu_denoised"));
-  ASSERT_TRUE(output.wait_for_writer());
+  const auto output = subscription(topics, "imu_denoised");
   const auto writer = publisher(topics, "imu");
   const std::vector<testing::ImuMessage> sent = {imu_message(1, 10, {1.0, 0.0, 0.0}),
                                                  imu_message(2, 20, {-1.0, 0.0, 0.0}),
@@ -40,9 +38,9 @@ TEST_P(ImuTopicsTest, AMessageThatIsNotAcceptedIsGivenUpAndTheOthersKeepTheirFie
   ASSERT_TRUE(handler_.collector().wait_for_samples(3));
   subscriber.stop();
   EXPECT_TRUE(topics.publish(topic("imu"), std::vector{denoised(10), denoised(20)}));
-  ASSERT_TRUE(output.wait_for(2));
-  EXPECT_EQ(untouched_bits(output.messages()[0]), untouched_bits(sent[0]));
-  EXPECT_EQ(untouched_bits(output.messages()[1]), untouched_bits(sent[2]))
+  ASSERT_TRUE(output->wait_for(2));
+  EXPECT_EQ(untouched_bits(output->messages()[0]), untouched_bits(sent[0]));
+  EXPECT_EQ(untouched_bits(output->messages()[1]), untouched_bits(sent[2]))
       << "not the refused one with its stamp";
   EXPECT_FALSE(topics.publish(topic("other"), std::vector{denoised(10)}));
   EXPECT_EQ(topics.snapshot().dropped_messages, 0U);
@@ -74,10 +72,8 @@ TEST_P(ImuTopicsTest, WhatAnotherDaemonServesWaitsWhileThereIsRoomAndIsNotMissed
   ImuTopics topics(reader_domain_, options_);
   ImuSubscriber subscriber(topics, handler_);
   subscriber.start();
-  ImuSubscription output(writer_domain_.participant(), topic("imu_denoised"));
-  ImuSubscription realtime(writer_domain_.participant(), topic("imu_realtime"));
-  ASSERT_TRUE(output.wait_for_writer());
-  ASSERT_TRUE(realtime.wait_for_writer());
+  const auto output = subscription(topics, "imu_denoised");
+  const auto realtime = subscription(topics, "imu_realtime");
   const auto writer = publisher(topics, "imu");
   std::vector<testing::ImuMessage> sent;
   for (std::uint64_t n = 0; n < 6; ++n)
@@ -89,10 +85,10 @@ TEST_P(ImuTopicsTest, WhatAnotherDaemonServesWaitsWhileThereIsRoomAndIsNotMissed
   // This daemon goes on behind the fifth, before it takes the seventh.
   topics.publish_realtime(topic("imu"), std::vector{denoised(5), denoised(6)});
   topics.publish(topic("imu"), std::vector{denoised(5), denoised(6)});
-  for (ImuSubscription* subscription : {&output, &realtime}) {
-    ASSERT_TRUE(subscription->wait_for(2));
-    EXPECT_EQ(untouched_bits(subscription->messages()[0]), untouched_bits(sent[5]));
-    EXPECT_EQ(untouched_bits(subscription->messages()[1]), untouched_bits(sent[6]));
+  for (const auto* estimate : {&output, &realtime}) {
+    ASSERT_TRUE((*estimate)->wait_for(2));
+    EXPECT_EQ(untouched_bits((*estimate)->messages()[0]), untouched_bits(sent[5]));
+    EXPECT_EQ(untouched_bits((*estimate)->messages()[1]), untouched_bits(sent[6]));
   }
   EXPECT_EQ(topics.snapshot().dropped_messages, 0U);
 }
@@ -102,8 +98,7 @@ TEST_P(ImuTopicsTest, ASampleWhoseMessageHasGoneIsCountedAndTakesNoOtherAlong) {
   ImuTopics topics(reader_domain_, options_);
   ImuSubscriber subscriber(topics, handler_);
   subscriber.start();
-  ImuSubscription output(writer_domain_.participant(), topic("imu_denoised"));
-  ASSERT_TRUE(output.wait_for_writer());
+  const auto output = subscription(topics, "imu_denoised");
   const auto writer = publisher(topics, "imu");
   for (std::int64_t n = 10; n < 13; ++n)
     writer->publish(imu_message(static_cast<std::uint64_t>(n), n, {1.0, 0.0, 0.0}));
@@ -111,7 +106,7 @@ TEST_P(ImuTopicsTest, ASampleWhoseMessageHasGoneIsCountedAndTakesNoOtherAlong) {
   subscriber.stop();
   topics.publish(topic("imu"),
                  std::vector{denoised(8), denoised(9), denoised(10), denoised(11), denoised(12)});
-  ASSERT_TRUE(output.wait_for(3));
+  ASSERT_TRUE(output->wait_for(3));
   EXPECT_EQ(topics.snapshot().dropped_messages, 2U);
 }
 
