@@ -43,8 +43,9 @@ stage_analyze() {
   tidy_sources | xargs -P "$jobs" -n 1 clang-tidy-22 --quiet -p build/tidy '--checks=-*,clang-analyzer-*' 2>/dev/null
 }
 
-# Tests with real daemons live in real time: a busy machine that leaves one of them without a processor for seconds fails it. One that failed beside
-# others is run once more, alone, and has to pass there. What does not depend on time gets no second chance, nor does what a sanitizer reported.
+# Tests with real daemons, or with participants of DDS, live in real time: a busy machine that leaves one of them without a processor for seconds
+# fails it. One that failed beside others is run once more, alone, and has to pass there. What does not depend on time gets no second chance, nor does
+# what a sanitizer reported.
 again_alone() {
   local results=build/$1/Testing/Temporary failed timed
   if grep -qE '(ERROR|WARNING): [A-Za-z]+Sanitizer|runtime error:' "$results/LastTest.log"; then return 1; fi
@@ -54,7 +55,7 @@ again_alone() {
   printf '== failed beside other tests, so once more, alone:\n%s\n' "$failed"
   ctest --preset "$1" --rerun-failed -j 1
 }
-timed_labels='^(integration|browser|fleet)$'
+timed_labels='^(integration|browser|fleet|dds)$'
 
 build_and_test() {
   cmake --preset "$1"

@@ -55,6 +55,7 @@ class AutoReliabilityTest : public SubscriberTest {
   [[nodiscard]] BestEffortWriter best_effort_writer() const {
     BestEffortWriter writer(writer_domain(), options_);
     wait_until([&] { return writer.has_readers(); });
+    settle(writer_domain(), reader_domain());
     return writer;
   }
 };

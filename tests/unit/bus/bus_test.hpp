@@ -2,6 +2,7 @@
 /// can be waited for.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
@@ -21,6 +22,8 @@
 #include "bus/domain.hpp"
 #include "bus/recorder.hpp"
 #include "bus/subscriber.hpp"
+#include "bus/topic_writer.hpp"
+#include "bus/writer_book.hpp"
 
 namespace gyrod::bus::test {
 
@@ -87,6 +90,19 @@ class BusTest : public ::testing::TestWithParam<Route> {
       ASSERT_LT(std::chrono::steady_clock::now(), deadline);
       std::this_thread::yield();
     }
+  }
+
+  /// Waits until `at` has dealt with all that it heard of `from` so far. A match shows at a reader a moment before messages reach it, and
+  /// best-effort ones are lost meanwhile; what is discovered after it, which one thread sees to in order, shows when that moment is over.
+  static void settle(const Domain& from, const Domain& at) {
+    const std::string topic = "test" + std::to_string(getpid()) + "/settled";
+    WriterBook book(at, {TopicType<gyrod_NoiseReport>::kDescriptor->m_typename});
+    const TopicWriter<gyrod_NoiseReport> last(from.participant(), topic, Qos());
+    wait_until([&] {
+      const std::vector<WriterBook::Writer> news = book.take_news();
+      return std::ranges::any_of(news,
+                                 [&](const WriterBook::Writer& writer) { return writer.topic == topic; });
+    });
   }
 
   BusOptions options_ = test_options();

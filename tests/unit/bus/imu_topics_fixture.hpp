@@ -69,6 +69,7 @@ class ImuTopicsTest : public BusTest {
     auto made = std::make_unique<testing::ImuPublisher>(writer_domain_.participant(), topic(name));
     EXPECT_TRUE(made->wait_for_reader());
     wait_until([&] { return topics.snapshot().matched_writers == before + 1; });
+    settle(writer_domain_, reader_domain_);
     return made;
   }
 
@@ -82,6 +83,7 @@ class ImuTopicsTest : public BusTest {
       return std::ranges::any_of(
           known, [&](const TopicReaders& of) { return of.topic == topic(name) && of.readers > 0; });
     });
+    settle(reader_domain_, writer_domain_);
     return made;
   }
 

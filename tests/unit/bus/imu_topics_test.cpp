@@ -137,6 +137,7 @@ TEST_P(ImuTopicsTest, APublisherThatMissesItsDeadlineIsTold) {
   const TopicWriter<sensor_msgs_msg_dds__Imu_> writer(writer_domain_.participant(), topic("imu"),
                                                       imu_writer_qos(options_));
   wait_until([&] { return writer.has_readers() && topics.snapshot().matched_writers == 1; });
+  settle(writer_domain_, reader_domain_);
   testing::ImuMessage message = imu_message(1, 10, {-1.0, 0.0, 0.0});
   message.fields.header.frame_id = message.frame_id.data();
   EXPECT_EQ(writer.write(message.fields), DDS_RETCODE_OK);
