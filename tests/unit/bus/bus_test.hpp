@@ -92,8 +92,9 @@ class BusTest : public ::testing::TestWithParam<Route> {
     }
   }
 
-  /// Waits until `at` has dealt with all that it heard of `from` so far. A match shows at a reader a moment before messages reach it, and
-  /// best-effort ones are lost meanwhile; what is discovered after it, which one thread sees to in order, shows when that moment is over.
+  /// Waits until `at` has dealt with all that it heard of `from` so far. A match shows at a reader a moment before messages reach it; those
+  /// that come meanwhile it never gets, reliable ones neither, as nobody who joins late. What is discovered after the match, which one thread
+  /// sees to in order, shows that the moment is over.
   static void settle(const Domain& from, const Domain& at) {
     const std::string topic = "test" + std::to_string(getpid()) + "/settled";
     WriterBook book(at, {TopicType<gyrod_NoiseReport>::kDescriptor->m_typename});

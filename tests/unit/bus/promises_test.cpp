@@ -92,8 +92,7 @@ TEST_P(PromisesTest, PartitionsKeepVehiclesApart) {
   Subscriber everywhere(reader_domain(), every, all);
   everywhere.start();
   RawWriter seven = matched_writer(1);
-  RawWriter eight(writer_domain(), other);
-  ASSERT_TRUE(eight.wait_for_subscriber(kPatience));
+  RawWriter eight = matched_writer(other, 1);
   wait_until([&] { return everywhere.matched_writers() == 2U && subscriber.matched_writers() == 1U; });
   publish_all(eight, "gyro8", make_samples(0, 10));
   publish_all(seven, "gyro7", make_samples(0, 10));
@@ -112,6 +111,7 @@ TEST_P(PromisesTest, ASingleTopicHasWhatIsSaidOfIt) {
   RawWriter single = matched_writer(1);
   RawWriter batch = matched_writer(10);
   RawWriter lost(writer_domain(), elsewhere, 10);
+  settle(writer_domain(), reader_domain());
   wait_until([&] { return subscriber.matched_writers() == 2U; });
   publish_all(lost, "lost", make_samples(0, 10));
   publish_all(batch, "batch", make_samples(0, 10));

@@ -183,6 +183,7 @@ TEST_P(PublisherTest, ATopicOfUnknownNameIsReadByTheTypeItsWriterShows) {
   Recorder recorder(reader_domain(), options_, elsewhere.topics.raw_batch, kPatience);
   EXPECT_EQ(recorder.type_name(), "gyrod::GyroBatch");
   ASSERT_TRUE(writer.wait_for_subscriber(kPatience));
+  settle(writer_domain(), reader_domain());
   const std::vector<stream::Sample> samples = make_samples(3, 40);
   ASSERT_EQ(writer.publish("gyro", samples), samples.size());
   poll_until_samples(recorder, collector_, "gyro", samples.size());

@@ -26,9 +26,14 @@ class SubscriberTest : public BusTest {
     }
   }
 
-  [[nodiscard]] RawWriter matched_writer(std::size_t batch_samples) {
-    RawWriter writer(writer_domain(), options_, batch_samples);
+  [[nodiscard]] RawWriter matched_writer(std::size_t batch_samples) const {
+    return matched_writer(options_, batch_samples);
+  }
+  /// One that knows its readers and that they know.
+  [[nodiscard]] RawWriter matched_writer(const BusOptions& options, std::size_t batch_samples) const {
+    RawWriter writer(writer_domain(), options, batch_samples);
     EXPECT_TRUE(writer.wait_for_subscriber(kPatience));
+    settle(writer_domain(), reader_domain());
     return writer;
   }
 

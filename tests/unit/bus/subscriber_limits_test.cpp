@@ -47,14 +47,14 @@ TEST_P(SubscriberLimitsTest, MalformedMessagesAreCountedAndTheRestPasses) {
   subscriber.start();
   BusOptions generous = options_;
   generous.max_batch_samples = 64;
-  RawWriter writer(writer_domain(), generous, 64);
-  ASSERT_TRUE(writer.wait_for_subscriber(kPatience));
+  RawWriter writer = matched_writer(generous, 64);
   publish_all(writer, "gyro", make_samples(0, 9));
   publish_all(writer, "gyro", make_samples(0, 8));
   const Domain domain = writer_domain();
   const TopicWriter<gyrod_GyroSample> nameless(domain.participant(), options_.topics.raw,
                                                input_writer_qos(options_));
   wait_until([&] { return nameless.has_readers(); });
+  settle(domain, reader_domain());
   EXPECT_EQ(nameless.write(gyrod_GyroSample{}), DDS_RETCODE_OK);
   nameless.flush();
   RawWriter singles = matched_writer(1);
