@@ -66,7 +66,7 @@ TEST_P(MismatchWatchTest, AWriterThatOffersLessIsNamedOnceWithBothValuesAndTheKe
   {
     const TopicWriter<gyrod_GyroSample> writer(theirs_.participant(), options_.topics.raw, best_effort());
     wait_until([&] { return peers(watch, "input", "reliability") == 1U; });
-    const Domain another = writer_domain();
+    const Domain another = another_writer_domain();
     const TopicWriter<gyrod_GyroSample> second(another.participant(), options_.topics.raw, best_effort());
     wait_until([&] { return peers(watch, "input", "reliability") == 2U; });
   }
