@@ -39,7 +39,7 @@ TEST_P(FleetMembersTest,
     wait_until([&] { return large.is_active() && large.handler().rule().left.empty(); });
     EXPECT_EQ(small.handler().rule(), (fleet::ServingRule{{1, 1}, true, {{2, 2}}}));
     EXPECT_EQ(large.standing().peers, 1U);
-    EXPECT_EQ(small.standing().overlapping, 1U);
+    wait_until([&] { return small.standing().overlapping == 1; });  // shown after its rule
     EXPECT_EQ(large.standing().disputes + small.standing().disputes, 0U);
     large.leave();
     wait_until([&] { return small.standing().peers == 0; });
