@@ -43,7 +43,7 @@ stage_analyze() {
   tidy_sources | xargs -P "$jobs" -n 1 clang-tidy-22 --quiet -p build/tidy '--checks=-*,clang-analyzer-*' 2>/dev/null
 }
 
-# Tests with real daemons, or with participants of DDS, live in real time: a busy machine that leaves one of them without a processor for seconds
+# Tests with real daemons, with participants of DDS or slow clients live in real time: a busy machine that leaves one of them without a processor for seconds
 # fails it. One that failed beside others is run once more, alone, and has to pass there. What does not depend on time gets no second chance, nor does
 # what a sanitizer reported.
 again_alone() {
@@ -55,7 +55,7 @@ again_alone() {
   printf '== failed beside other tests, so once more, alone:\n%s\n' "$failed"
   ctest --preset "$1" --rerun-failed -j 1
 }
-timed_labels='^(integration|browser|fleet|dds)$'
+timed_labels='^(integration|browser|fleet|timed)$'
 
 build_and_test() {
   cmake --preset "$1"

@@ -15,6 +15,7 @@ namespace gyrod::testing {
 namespace {
 
 const auto kWorkers = kSlowBuild ? std::vector<std::size_t>{1, 4} : std::vector<std::size_t>{1, 2, 4};
+const std::size_t kDrive = kSlowBuild ? 2500 : 5000;
 const auto kBatches = kSlowBuild ? std::vector<std::size_t>{7} : std::vector<std::size_t>{1, 7, 64};
 
 const std::vector<std::string> kRates = {"gyro_x_radps", "gyro_y_radps", "gyro_z_radps"};
@@ -36,6 +37,11 @@ class LiveEqualsOffline : public Rig {
         start_recorder(realtime, {"--sensor", sensor, "--until-end", "--unit", unit}, "gyro/realtime");
     replay(recording, sensor, batch, unit, out);
     ASSERT_EQ(recorder->wait(), app::kDone) << recorder->err();
+  }
+  void simulate_drive(const std::string& out) {
+    ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", std::to_string(kDrive), "-o", path(out)})
+                  .exit_code,
+              0);
   }
   void denoise(const std::string& recording, const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"denoise", path(recording), "-o", path(out), "--std"};
@@ -79,15 +85,13 @@ class LiveEqualsOffline : public Rig {
 };
 
 TEST_F(LiveEqualsOffline, OnASimulatedDriveForAnyNumberOfWorkersAndAnyBatch) {
-  ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", "5000", "-o", path("drive.csv")}).exit_code,
-            0);
+  simulate_drive("drive.csv");
   expect_same("drive.csv", "radps");
-  EXPECT_EQ(columns_of(path("live.csv"), {"sequence"}).size(), 5000U);
+  EXPECT_EQ(columns_of(path("live.csv"), {"sequence"}).size(), kDrive);
 }
 
 TEST_F(LiveEqualsOffline, ByMethodPaper) {
-  ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", "5000", "-o", path("drive.csv")}).exit_code,
-            0);
+  simulate_drive("drive.csv");
   denoise("drive.csv", "offline.csv", {"--method", "paper"});
   const auto daemon = start_daemon({.method = "paper"});
   replay(path("drive.csv"), "imu", 7, "radps", "live.csv");
