@@ -11,7 +11,7 @@ namespace gyrod::app {
 namespace {
 
 /// Rows handed on between two looks: some ten milliseconds.
-constexpr std::size_t kLookUpEvery = 4096;
+constexpr std::size_t kRowsBetweenLooks = 4096;
 
 struct Whole {
   std::array<std::vector<double>, stream::kAxes> denoised;
@@ -77,7 +77,7 @@ void BatchDenoiser::finish() {
     if (!denoise(stretch)) return;
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (i % kLookUpEvery == 0 && !wanted_()) return;
+    if (i % kRowsBetweenLooks == 0 && !wanted_()) return;
     hand_on(rows_[i]);
   }
   rows_.clear();

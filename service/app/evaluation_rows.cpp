@@ -16,7 +16,7 @@
 namespace gyrod::app {
 namespace {
 
-constexpr std::size_t kFewestSamples = 100;
+constexpr std::size_t kFewestOfARow = 100;
 
 std::size_t index_of(const std::string& axis) { return static_cast<std::size_t>(axis.back() - 'x'); }
 
@@ -75,7 +75,7 @@ std::string prefix_of(const files::Record& record, const EvaluationInput& input)
 }
 
 /// NaN between two numbers becomes a straight line; NaN at an end the nearest number.
-std::vector<double> bridged(std::vector<double> values) {
+std::vector<double> with_gaps_bridged(std::vector<double> values) {
   const auto known = [](double value) { return std::isfinite(value); };
   auto next = std::ranges::find_if(values, known);
   std::fill(values.begin(), next, *next);
@@ -124,9 +124,9 @@ files::Record load_noise(const EvaluationInput& input, double rate_hz) {
         std::to_string(rate_hz) +
         " Hz; nothing is resampled: give --rate HZ to take both sample by sample at that rate");
   }
-  if (noise.size() < kFewestSamples) {
+  if (noise.size() < kFewestOfARow) {
     throw files::FileError(noise.name + ": holds " + std::to_string(noise.size()) +
-                           " good samples; expected at least " + std::to_string(kFewestSamples));
+                           " good samples; expected at least " + std::to_string(kFewestOfARow));
   }
   return noise;
 }
@@ -138,10 +138,10 @@ class RowMaker {
     all_.name = record_.name;
     all_.rate_hz = record_.sample_rate_hz;
     all_.samples = record_.size();
-    if (record_.size() < kFewestSamples) {
+    if (record_.size() < kFewestOfARow) {
       throw files::FileError(record_.name + ": holds " + std::to_string(record_.size()) +
                              " good samples in one stretch; expected at least " +
-                             std::to_string(kFewestSamples));
+                             std::to_string(kFewestOfARow));
     }
     if (!input_.signal_is_truth) prefix_ = prefix_of(record_, input_);
     all_.truth_columns = input_.signal_is_truth ? "gyro" : prefix_;
@@ -179,7 +179,7 @@ class RowMaker {
     row.noisy_dps = gyro_column(record_, axis);
     row.noise_dps = row.noisy_dps;
     for (std::size_t n = 0; n < row.noise_dps.size(); ++n) row.noise_dps[n] -= row.truth_dps[n];
-    row.noise_dps = without_mean(bridged(row.noise_dps));
+    row.noise_dps = without_mean(with_gaps_bridged(row.noise_dps));
     return row;
   }
 
@@ -193,10 +193,10 @@ class RowMaker {
     const std::size_t samples = row.truth_dps.size();
     row.noise_dps = scaled(without_mean(stretch(all, input_.noise_start, samples)), scale);
     const std::size_t end = input_.noise_start + samples;
-    if (end + kFewestSamples <= all.size()) {
+    if (end + kFewestOfARow <= all.size()) {
       row.still_dps = scaled(without_mean(stretch(all, end, all.size() - end)), scale);
     }
-    row.noisy_dps = bridged(row.truth_dps);
+    row.noisy_dps = with_gaps_bridged(row.truth_dps);
     for (std::size_t n = 0; n < samples; ++n) row.noisy_dps[n] += row.noise_dps[n];
     return row;
   }

@@ -86,19 +86,20 @@ std::string guard_cell(const core::Guard& guard) {
 }
 
 std::string guards_table(const JudgedRow& row) {
-  constexpr int kWidth = 16;
+  constexpr int kCellWidth = 16;
   std::string text = "\n  " + left("guards", kNameWidth);
   for (const JudgedGuards& judged : row.guards)
-    text += right(judged.name + (judged.name == "Butterworth" ? " *" : ""), kWidth);
-  text += right("limit", kWidth) + "\n";
+    text += right(judged.name + (judged.name == "Butterworth" ? " *" : ""), kCellWidth);
+  text += right("limit", kCellWidth) + "\n";
   for (std::size_t i = 0; i < row.guards.front().guards.size(); ++i) {
     const core::Guard& first = row.guards.front().guards[i];
     text += "  " + left(std::string(core::name_of(first.kind)), kNameWidth);
-    for (const JudgedGuards& judged : row.guards) text += right(guard_cell(judged.guards[i]), kWidth);
+    for (const JudgedGuards& judged : row.guards) text += right(guard_cell(judged.guards[i]), kCellWidth);
     const bool gain =
         first.kind == core::GuardKind::kSlowTurnGain || first.kind == core::GuardKind::kSwingGain ||
         first.kind == core::GuardKind::kScaleFactor || first.kind == core::GuardKind::kVibrationGain;
-    text += right((gain ? "1 +- " : "") + short_number(row.guards.front().guards[i].limit), kWidth) + "\n";
+    text +=
+        right((gain ? "1 +- " : "") + short_number(row.guards.front().guards[i].limit), kCellWidth) + "\n";
   }
   return text;
 }

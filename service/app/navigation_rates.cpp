@@ -9,26 +9,26 @@
 namespace gyrod::app {
 namespace {
 
-constexpr std::string_view kJoint = "joint";
-constexpr std::string_view kRealtime = "realtime";
+constexpr std::string_view kJointName = "joint";
+constexpr std::string_view kRealtimeName = "realtime";
 
 }  // namespace
 
 std::vector<std::string> navigated_names() {
   std::vector<std::string> names(core::kSchemeNames.begin(), core::kSchemeNames.end());
-  names.emplace_back(kJoint);
-  names.emplace_back(kRealtime);
+  names.emplace_back(kJointName);
+  names.emplace_back(kRealtimeName);
   return names;
 }
 
 bool comes_at_once(std::string_view name) noexcept {
-  return name == core::name_of(core::Scheme::kRaw) || name == kRealtime;
+  return name == core::name_of(core::Scheme::kRaw) || name == kRealtimeName;
 }
 
 void check_navigated(const std::vector<std::string>& names, const settings::Settings& settings,
                      bool whole_record) {
   for (const std::string& name : names) {
-    if (name != kJoint && name != kRealtime) continue;
+    if (name != kJointName && name != kRealtimeName) continue;
     if (whole_record)
       throw CLI::ValidationError("--schemes", name + " and --whole-record exclude one another");
     if (settings.engine.lag_samples <= stream::kMaxModelLagSamples) continue;
@@ -44,7 +44,7 @@ NavigatedRates navigated_rates(const std::string& name, const files::Record& rec
   if (const auto scheme = core::scheme_of(name))
     return denoise_record(record, settings, *scheme, whole_record);
   return estimate_record(record, settings,
-                         name == kRealtime ? EstimateKind::kRealtime : EstimateKind::kDenoised);
+                         name == kRealtimeName ? EstimateKind::kRealtime : EstimateKind::kDenoised);
 }
 
 }  // namespace gyrod::app

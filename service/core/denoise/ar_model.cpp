@@ -13,10 +13,6 @@
 namespace gyrod::core {
 namespace {
 
-double dot(std::span<const double> x, std::span<const double> y) noexcept {
-  return sum_of(x, y, [](auto a, auto b) { return a * b; });
-}
-
 void scale_roots(std::span<double> a, double factor) noexcept {
   double power = 1.0;
   for (double& coefficient : a) coefficient *= power *= factor;

@@ -67,7 +67,7 @@ class Doubling {
 };
 
 template <int kSize>
-bool solve_sized(const StateSpace& model, StateMatrix& X) noexcept {
+[[maybe_unused]] bool solve_sized(const StateSpace& model, StateMatrix& X) noexcept {
   return Doubling<Eigen::Matrix<double, kSize, kSize>, Eigen::Matrix<double, kSize, 1>>(model).solve(X);
 }
 
@@ -75,6 +75,7 @@ bool solve_sized(const StateSpace& model, StateMatrix& X) noexcept {
 
 bool solve_riccati(const StateSpace& model, StateMatrix& X) noexcept {
   assert(model.r > 0.0);
+#ifndef GYROD_SIZES_AT_RUN_TIME
   switch (model.A.rows()) {
     case 2:
       return solve_sized<2>(model, X);
@@ -87,8 +88,10 @@ bool solve_riccati(const StateSpace& model, StateMatrix& X) noexcept {
     case 6:
       return solve_sized<6>(model, X);  // the largest order by default
     default:
-      return Doubling<StateMatrix, StateVector>(model).solve(X);
+      break;
   }
+#endif
+  return Doubling<StateMatrix, StateVector>(model).solve(X);
 }
 
 bool solve_riccati_precisely(const StateSpace& model, StateMatrix& X) noexcept {

@@ -8,14 +8,6 @@
 #include "core/signal/sums.hpp"
 
 namespace gyrod::core {
-namespace {
-
-double dot(std::span<const double> x, std::span<const double> y) noexcept {
-  return sum_of(x, y, [](auto a, auto b) { return a * b; });
-}
-
-}  // namespace
-
 TallQr::TallQr(std::size_t max_columns) : block_(max_columns * kBlockRows) {
   assert(max_columns <= kMaxRegressionColumns);
 }

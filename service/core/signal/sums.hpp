@@ -42,4 +42,9 @@ template <class Term>
   return sum_of(x, x, [&term](auto a, auto) { return term(a); });
 }
 
+/// sum_n x[n] y[n], as above.
+[[nodiscard]] inline double dot(std::span<const double> x, std::span<const double> y) noexcept {
+  return sum_of(x, y, [](auto a, auto b) { return a * b; });
+}
+
 }  // namespace gyrod::core
