@@ -67,7 +67,7 @@ class Doubling {
 };
 
 template <int kSize>
-[[maybe_unused]] bool solve_sized(const StateSpace& model, StateMatrix& X) noexcept {
+bool solve_sized(const StateSpace& model, StateMatrix& X) noexcept {
   return Doubling<Eigen::Matrix<double, kSize, kSize>, Eigen::Matrix<double, kSize, 1>>(model).solve(X);
 }
 
@@ -75,7 +75,6 @@ template <int kSize>
 
 bool solve_riccati(const StateSpace& model, StateMatrix& X) noexcept {
   assert(model.r > 0.0);
-#ifndef GYROD_SIZES_AT_RUN_TIME
   switch (model.A.rows()) {
     case 2:
       return solve_sized<2>(model, X);
@@ -88,10 +87,8 @@ bool solve_riccati(const StateSpace& model, StateMatrix& X) noexcept {
     case 6:
       return solve_sized<6>(model, X);  // the largest order by default
     default:
-      break;
+      return Doubling<StateMatrix, StateVector>(model).solve(X);
   }
-#endif
-  return Doubling<StateMatrix, StateVector>(model).solve(X);
 }
 
 bool solve_riccati_precisely(const StateSpace& model, StateMatrix& X) noexcept {

@@ -7,7 +7,7 @@ namespace gyrod::core {
 namespace {
 
 /// Samples on either side that a roughness is the mean of.
-constexpr std::size_t kReach = 4;
+constexpr std::size_t kSmoothReach = 4;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ KnockBridge::KnockBridge(std::size_t max_samples)
 
 std::size_t KnockBridge::apply(std::span<double> window, const JointOptions& options) noexcept {
   assert(window.size() <= sorted_.capacity());
-  if (window.size() < 4 * kReach) return 0;
+  if (window.size() < 4 * kSmoothReach) return 0;
   measure(window);
   sorted_.assign(roughness_.begin(), roughness_.end());
   const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
@@ -41,8 +41,8 @@ void KnockBridge::measure(std::span<const double> window) noexcept {
     sorted_[n] = second * second;
   }
   for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t first = std::max<std::size_t>(n, kReach + 1) - kReach;
-    const std::size_t last = std::min(n + kReach, count - 2);
+    const std::size_t first = std::max<std::size_t>(n, kSmoothReach + 1) - kSmoothReach;
+    const std::size_t last = std::min(n + kSmoothReach, count - 2);
     double sum = 0.0;
     for (std::size_t k = first; k <= last; ++k) sum += sorted_[k];
     roughness_[n] = sum / static_cast<double>(last - first + 1);
