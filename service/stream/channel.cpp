@@ -182,17 +182,20 @@ void Channel::count_published(std::span<const DenoisedSample> samples) {
   };
   const std::uint64_t warming_up = flagged(SampleFlag::kWarmingUp);
   const std::uint64_t passed_through = flagged(SampleFlag::kPassThrough);
+  const bool widened = flagged(SampleFlag::kHopWidened) > 0;
   const std::lock_guard lock(mutex_);
   counts_.published += samples.size();
   counts_.in_flight -= samples.size();
   counts_.warming_up += warming_up;
   counts_.passed_through += passed_through;
+  if (widened) worst_step_ = std::max(worst_step_, 1U);
 }
 
 void Channel::set_pass_through(bool active) {
   const std::lock_guard lock(mutex_);
   if (active && !pass_through_) ++counts_.overloads;
   pass_through_ = active;
+  if (active) worst_step_ = 2U;
 }
 
 void Channel::keep_report(const NoiseReport& report) {
@@ -219,8 +222,8 @@ bool Channel::idle() const {
 Channel::Judgement Channel::judge_health(HealthContext context) {
   const std::lock_guard lock(mutex_);
   const bool widened = (last_report_.flags & static_cast<std::uint32_t>(SampleFlag::kHopWidened)) != 0;
-  context.overload_step = widened ? 1U : 0U;
-  if (pass_through_) context.overload_step = 2U;
+  const unsigned step = pass_through_ ? 2U : static_cast<unsigned>(widened);
+  context.overload_step = std::max(step, std::exchange(worst_step_, step));
   const SensorHealth before = health_.value_or(SensorHealth{});
   const SensorHealth now = judge_.judge(evidence_, context);
   const auto differs = [&](std::size_t axis) { return before.axis[axis].state != now.axis[axis].state; };

@@ -170,7 +170,8 @@ class Channel {
   NoiseReport last_report_;
   std::uint64_t epoch_ = 0;
   bool pass_through_ = false;
-  double heard_s_ = 0.0;  ///< the intake's alone
+  unsigned worst_step_ = 0;  ///< of overload, since judge_health()
+  double heard_s_ = 0.0;     ///< the intake's alone
   std::atomic<ChannelState> state_{ChannelState::kActive};
   std::optional<PublishedMark> before_silence_;    ///< the intake's alone
   std::optional<double> heard_again_s_;            ///< when that silence ended; the intake's alone

@@ -2,6 +2,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -92,6 +93,37 @@ TEST(Engine, WidensTheHopBeforeItGivesUpDenoising) {
   ASSERT_EQ(output.size(), 80U);
   EXPECT_NE(output[79].flags & static_cast<std::uint32_t>(SampleFlag::kHopWidened), 0U);
   EXPECT_EQ(output[79].flags & static_cast<std::uint32_t>(SampleFlag::kPassThrough), 0U);
+}
+
+TEST(Engine, JudgesAnOverloadThatIsOverBeforeItIsLookedAt) {
+  RecordingSink sink;
+  Gatekeeper gate;
+  std::atomic<double> now{0.0};
+  EngineOptions options = small_options(1);
+  options.max_delay_s = 1.0;
+  Engine engine(options, window_marker([&gate] { gate.pass(); }), sink, [&now] { return now.load(); });
+  const auto overload = [&](std::uint64_t first, double late_s) {
+    gate.set_open(false);
+    engine.push("imu", counting_samples(32, first));
+    now = now + late_s;
+    engine.push("imu", counting_samples(64, first + 32));
+    gate.set_open(true);
+    engine.wait_idle();
+    engine.push("imu", counting_samples(320, first + 96));
+    engine.wait_idle();
+  };
+  const auto judged = [&engine] {
+    engine.judge_health();
+    return std::pair(engine.channels(1)[0].health->state, engine.snapshot().overload_step);
+  };
+  overload(0, 10.0);
+  ASSERT_FALSE(engine.channels(1)[0].pass_through);
+  EXPECT_EQ(judged(), std::pair(Health::kDegraded, 2U));
+  EXPECT_EQ(judged().second, 0U) << "and was said once";
+  overload(416, 0.6);  // past half of the longest delay
+  ASSERT_EQ(sink.samples("imu").back().flags & static_cast<std::uint32_t>(SampleFlag::kHopWidened), 0U);
+  EXPECT_EQ(judged(), std::pair(Health::kDegraded, 1U));
+  EXPECT_EQ(judged().second, 0U);
 }
 
 TEST(Engine, WaitsForWorkersRatherThanLoseOrDegrade) {
