@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -36,6 +37,41 @@ struct BatchSums {
   }
 };
 
+/// What a least-squares line needs to know.
+struct LineSums {
+  double count = 0.0;
+  double x = 0.0;
+  double y = 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+
+  void add(double x_value, double y_value) noexcept {
+    count += 1.0;
+    x += x_value;
+    y += y_value;
+    xx += x_value * x_value;
+    xy += x_value * y_value;
+  }
+  LineSums& operator+=(const LineSums& other) noexcept { return add(other, 1.0); }
+  LineSums& operator-=(const LineSums& other) noexcept { return add(other, -1.0); }
+  /// Nothing where x does not vary by more than rounding makes of it.
+  [[nodiscard]] std::optional<double> slope() const noexcept {
+    const double variation = xx - x * x / count;
+    if (!(variation > 1e-12 * xx)) return std::nullopt;
+    return (xy - x * y / count) / variation;
+  }
+
+ private:
+  LineSums& add(const LineSums& other, double sign) noexcept {
+    count += sign * other.count;
+    x += sign * other.x;
+    y += sign * other.y;
+    xx += sign * other.xx;
+    xy += sign * other.xy;
+    return *this;
+  }
+};
+
 struct Means {
   double x = 0.0;
   double y = 0.0;
@@ -56,16 +92,6 @@ Means means_of(std::span<const double> x, std::span<const double> y) noexcept {
     means.y /= means.count;
   }
   return means;
-}
-
-/// sum (x - mean x)(y - mean y) over what is finite in both.
-double product_sum(std::span<const double> x, std::span<const double> y, const Means& means) noexcept {
-  double sum = 0.0;
-  for (std::size_t t = 0; t < x.size(); ++t) {
-    const double term = (x[t] - means.x) * (y[t] - means.y);
-    if (std::isfinite(term)) sum += term;
-  }
-  return sum;
 }
 
 double correlation(std::span<const double> x, std::span<const double> y) noexcept {
@@ -97,20 +123,29 @@ std::optional<Measured> batch_mean(std::span<const double> x, std::size_t batch)
 std::optional<Measured> batch_slope(std::span<const double> x, std::span<const double> y, std::size_t batch) {
   assert(batch >= 1 && x.size() == y.size());
   const Means means = means_of(x, y);
-  // x counts only where y is known, too.
-  std::vector<double> known(x.begin(), x.end());
-  for (std::size_t t = 0; t < known.size(); ++t) {
-    if (!std::isfinite(y[t])) known[t] = std::numeric_limits<double>::quiet_NaN();
+  std::vector<LineSums> batches;
+  LineSums all;
+  for (std::size_t begin = 0; begin < x.size(); begin += batch) {
+    LineSums sums;
+    for (std::size_t t = begin; t < std::min(x.size(), begin + batch); ++t) {
+      if (std::isfinite(x[t]) && std::isfinite(y[t])) sums.add(x[t] - means.x, y[t] - means.y);
+    }
+    if (sums.count == 0.0) continue;
+    batches.push_back(sums);
+    all += sums;
   }
-  const double xx = product_sum(known, known, {means.x, means.x, means.count});
-  if (!(xx > 0.0)) return std::nullopt;
-  const double slope = product_sum(known, y, means) / xx;
-  const BatchSums sums(x.size(), batch, [&](std::size_t t) {
-    const double u = x[t] - means.x;
-    return u * (y[t] - means.y - slope * u);
-  });
-  if (sums.batches < 2) return std::nullopt;
-  return Measured{slope, std::sqrt(sums.squares) / xx};
+  const auto slope = all.slope();
+  if (!slope || batches.size() < 2) return std::nullopt;
+  double squares = 0.0;
+  for (const LineSums& left_out : batches) {
+    LineSums others = all;
+    others -= left_out;
+    const auto without = others.slope();
+    if (!without) return std::nullopt;
+    squares += (*without - *slope) * (*without - *slope);
+  }
+  const auto count = static_cast<double>(batches.size());
+  return Measured{*slope, std::sqrt(squares * (count - 1.0) / count)};
 }
 
 std::optional<SwingResponse> swing_response(std::span<const double> change, SampleRange range,

@@ -22,9 +22,10 @@ struct Measured {
 /// @param batch samples, at least 1  @return nothing for less than two batches with known samples
 [[nodiscard]] std::optional<Measured> batch_mean(std::span<const double> x, std::size_t batch);
 
-/// Slope of the least-squares line y = c + slope x; standard error from the batches' sums of (x - mean x)(y - line):
-///   sqrt(sum_b (sum_(t in b) u e)^2) / sum u^2.   Source: cluster-robust variance, Liang, Zeger 1986, Biometrika 73(1).
-/// @return nothing where x is constant or less than two batches are known  @pre x.size() == y.size()
+/// Slope of the least-squares line y = c + slope x; standard error from the slopes without one of the B batches each (jackknife):
+///   sqrt((B - 1) / B sum_b (slope_(-b) - slope)^2).   Source: Efron, Stein 1981, Annals of Statistics 9(3).
+/// A line goes nearly through a batch that holds most of what x varies, so residuals there would tell nothing of the error.
+/// @return nothing where x is constant, with all batches or without one of them, or less than two are known  @pre x.size() == y.size()
 [[nodiscard]] std::optional<Measured> batch_slope(std::span<const double> x, std::span<const double> y,
                                                   std::size_t batch);
 

@@ -58,8 +58,30 @@ TEST(Statistics, SlopeInWhiteNoiseHasTheErrorOfTheTextbook) {
   EXPECT_NEAR(slope->value, 1.0, 4.0 * expected);
 }
 
+// x varies in one of seven batches more than in all others, as a drive turns: the line goes through that one. The slope's error is that of the
+// textbook, and the standard error is to be no less (twice as much in the mean of squares would do no harm).
+TEST(Statistics, SlopeDoesNotTrustTheOneBatchThatHoldsTheMotion) {
+  constexpr std::size_t kBatch = 10;
+  constexpr int kSeries = 400;
+  auto x = test::white_noise(7 * kBatch, 0.3, 7);
+  for (std::size_t t = 3 * kBatch; t < 4 * kBatch; ++t) x[t] *= 10.0;
+  double claimed = 0.0;
+  double squares = 0.0;
+  for (int n = 0; n < kSeries; ++n) {
+    const auto y = test::sum_of(x, test::white_noise(x.size(), 1.0, static_cast<unsigned>(100 + n)));
+    const auto slope = batch_slope(x, y, kBatch);
+    ASSERT_TRUE(slope);
+    claimed += slope->standard_error * slope->standard_error / kSeries;
+    squares += (slope->value - 1.0) * (slope->value - 1.0) / kSeries;
+  }
+  EXPECT_GT(claimed, squares);
+}
+
 TEST(Statistics, NoSlopeOnAConstant) {
   EXPECT_FALSE(batch_slope(std::vector<double>(100, 2.0), test::white_noise(100, 1.0, 6), 10));
+  std::vector<double> once(100, 2.0);
+  once[17] = 3.0;  // without its batch nothing varies
+  EXPECT_FALSE(batch_slope(once, test::white_noise(100, 1.0, 6), 10));
 }
 
 TEST(Statistics, SwingResponseFindsGainAndDelay) {
