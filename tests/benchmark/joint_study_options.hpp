@@ -51,6 +51,10 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("correction_share", options.correction_share);
   set("steady_correction", options.steady_correction);
   set("most_steady_correction", options.most_steady_correction);
+  set("late_steady_correction", options.late_steady_correction);
+  set("most_late_steady_correction", options.most_late_steady_correction);
+  set("residual_weight", options.residual_weight);
+  set("residual_decay", options.residual_decay);
   set("steady_memory", options.steady_memory);
   set("residual_limit", options.residual_limit);
   set("residual_mean_limit", options.residual_mean_limit);

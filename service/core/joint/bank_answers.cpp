@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "core/joint/kalman_bank.hpp"
 
@@ -52,7 +53,7 @@ BankEstimate KalmanBank::held(std::size_t age) const noexcept {
 }
 
 void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
-                         BankEstimate& answer) const noexcept {
+                         BankEstimate& answer) noexcept {
   correction.step *= options_.hand_over_memory;
   answer.rate += correction.step;
   const double noise = model_.noise_variance * unit_;
@@ -61,7 +62,11 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
                                           .settled = expected_variance(kMaxLag) / noise}
                                   : Trust{};
   answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_, options_);
-  answer.rate = correction.slow.apply(sample, answer.rate, trust, options_, model_.scale);
+  std::array<double, kMaxLag> newer{};
+  for (std::size_t k = 0; k < lag; ++k) newer[k] = residuals_[(count_ - lag + k) % kRing];
+  if (lag == 0) residuals_[(count_ - 1) % kRing] = sample - answer.rate;
+  answer.rate =
+      correction.slow.apply(sample, answer.rate, trust, options_, model_.scale, std::span(newer).first(lag));
   answer.variance = widened(answer.variance);
 }
 

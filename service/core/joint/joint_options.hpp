@@ -83,11 +83,20 @@ struct JointOptions {
   /// cost. Range 0..1e4; 0..1.
   double steady_correction = 45.0;
   double most_steady_correction = 0.05;
+  /// The same of answers with look-ahead, which may be given back more: this much of the ratio's fourth power, and up to which rate. Range 0..1e6;
+  /// 0..1.
+  double late_steady_correction = 1000.0;
+  double most_late_steady_correction = 0.06;
+  /// What answers with look-ahead miss shows in newer samples, too: the residual k samples later counts by residual_weight
+  /// (1 - residual_decay rate)^k. In part, as it is that of an estimate without look-ahead, which misses more; and the less, the faster the
+  /// correction is anyway. Range 0..1; 1..1e9.
+  double residual_weight = 0.5;
+  double residual_decay = 3.0;
   /// Samples in which a least ratio that is over is forgotten. Range 1..1e9.
   double steady_memory = 2048.0;
   /// What an estimate takes off the samples is noise, up to this many times its variance in one sample, and this many in the mean of late; what
   /// is more goes back. Range 1..1e12.
-  double residual_limit = 16.0;
+  double residual_limit = 25.0;
   double residual_mean_limit = 2.0;
   /// Samples of that mean: enough for it to stay below 2 by chance (a standard deviation of 0.25), few enough for a knock. Range 1..1e9.
   double residual_memory = 16.0;

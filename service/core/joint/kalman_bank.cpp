@@ -60,6 +60,7 @@ void KalmanBank::reset() noexcept {
   fitted_ = false;
   unit_ = 0.0;
   members_ = {};
+  residuals_ = {};
   realtime_correction_ = {};
   denoised_correction_ = {};
   normalised_innovation_ = 1.0;

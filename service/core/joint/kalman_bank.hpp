@@ -74,7 +74,7 @@ class KalmanBank {
     SlowCorrection slow;
   };
 
-  void correct(double sample, std::size_t lag, Correction& correction, BankEstimate& answer) const noexcept;
+  void correct(double sample, std::size_t lag, Correction& correction, BankEstimate& answer) noexcept;
   [[nodiscard]] double expected_variance(std::size_t lag) const noexcept;
   [[nodiscard]] double widened(double variance) const noexcept;
   void scale() noexcept;
@@ -104,6 +104,7 @@ class KalmanBank {
   double prior_sum_ = 1.0;  ///< of the members that are usable
   /// P_L of every member at lag 0 and at lag_.
   std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
+  std::array<double, kRing> residuals_{};  ///< of the estimates at lag 0, by time
   Correction realtime_correction_;
   Correction denoised_correction_;
   double normalised_innovation_ = 1.0;

@@ -7,7 +7,7 @@
 namespace gyrod::core {
 
 /// Of one output. What a good estimate e takes off a sample z is noise, of a variance R that is known: d^2 / R with d = z - e is 1 at the
-/// most in the mean, and seldom above 16. Where it is more, e is what is wrong: a knock that no model expected, smeared by the filters over
+/// most in the mean, and hardly ever above 25. Where it is more, e is what is wrong: a knock that no model expected, smeared by the filters over
 /// what came before and after it. There the sample counts by as much as e is the worse of the two:
 ///   e + w d,   w = max(0, 1 - residual_limit R / d^2, 1 - residual_mean_limit / m),   m <- m + (d^2 / R - m) / residual_memory,
 /// which is never farther from the sample than sqrt(residual_limit R), and the nearer the farther off e is.

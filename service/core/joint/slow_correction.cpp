@@ -13,21 +13,37 @@ constexpr double kMostRatio = 1e6;
 }  // namespace
 
 double SlowCorrection::apply(double sample, double estimate, const Trust& trust, const JointOptions& options,
-                             const JointScale& scale) noexcept {
-  const double settled = std::min(trust.settled, kMostRatio);
-  const double expected = std::clamp(trust.expected, settled, kMostRatio);
-  steady_ = std::min(settled, steady_ + (settled - steady_) / scale.steady_memory(options.steady_memory));
+                             const JointScale& scale, std::span<const double> newer) noexcept {
   const double now = std::min(trust.now, kMostRatio);
-  const double steadiness =
-      expected > 0.0 ? steady_ * steady_ * steady_ * settled / expected * std::max(now / expected, 1.0) : 0.0;
-  const double rate =
-      std::max({scale.correction_rate(options.correction_rate),
-                std::min(options.correction_share * now, kMostCorrection),
-                std::min(options.steady_correction * steadiness, options.most_steady_correction)});
-  paid_ = rate * (owed_ + sample - estimate);
+  const double rate = std::max({scale.correction_rate(options.correction_rate),
+                                std::min(options.correction_share * now, kMostCorrection),
+                                steady_rate(trust, options, scale, !newer.empty())});
+  const double kept = std::max(1.0 - options.residual_decay * rate, 0.0);
+  double weight = options.residual_weight;
+  double coming = 0.0;
+  for (const double residual : newer) {
+    weight *= kept;
+    coming += weight * residual;
+  }
+  paid_ = rate * (owed_ + sample - estimate + coming);
   const double answer = estimate + paid_;
   owed_ += sample - answer;
   return answer;
+}
+
+/// Where the estimate has trusted the samples for long.
+double SlowCorrection::steady_rate(const Trust& trust, const JointOptions& options, const JointScale& scale,
+                                   bool late) noexcept {
+  const double now = std::min(trust.now, kMostRatio);
+  const double settled = std::min(trust.settled, kMostRatio);
+  const double expected = std::clamp(trust.expected, settled, kMostRatio);
+  steady_ = std::min(settled, steady_ + (settled - steady_) / scale.steady_memory(options.steady_memory));
+  if (!(expected > 0.0)) return 0.0;
+  const double cube = steady_ * steady_ * steady_;
+  const double given_back = settled / expected * std::max(now / expected, 1.0);
+  return late ? std::min(options.late_steady_correction * cube * steady_ * given_back,
+                         options.most_late_steady_correction)
+              : std::min(options.steady_correction * cube * given_back, options.most_steady_correction);
 }
 
 }  // namespace gyrod::core

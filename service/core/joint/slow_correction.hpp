@@ -1,6 +1,8 @@
 /// What a bank's estimate is given back of slow motion. Internal to core/joint.
 #pragma once
 
+#include <span>
+
 #include "core/joint/joint_options.hpp"
 
 namespace gyrod::core {
@@ -13,23 +15,29 @@ struct Trust {
 };
 
 /// Of one output. It makes of an estimate e and the sample z that it is of the answer
-///   out = e + c (owed + z - e),   owed <- owed + z - out,
+///   out = e + c (owed + z - e + residual_weight sum_k (1 - residual_decay c)^k d_k),   owed <- owed + z - out,
 ///   c = max(correction_rate, correction_share now, min(steady_correction s^3 b, most_steady_correction)),
 ///   s <- min(settled, s + (settled - s) / steady_memory),   b = settled / expected max(1, now / expected),
-/// with the rate and the memory at the model's scale: what no model expects still arrives, and the sum of the answers stays with that of
-/// the samples. A filter weighs motion against noise, and what is as small as the noise comes out smaller; where the error has been large
-/// for long, as on a road that shakes, slow noise hardly adds to it. The error with look-ahead tells such a road from a turn. An answer with
-/// less look-ahead is given back less, as the same noise weighs more in it, and one that the members dispute more.
+/// with the rate and the memory at the model's scale, and d_k the residual k samples later, as far as the answer waits for it: what no
+/// model expects still arrives, hardly late, and the sum of the answers stays with that of the samples. With look-ahead the last rate is
+/// min(late_steady_correction s^4 b, most_late_steady_correction).
+/// A filter weighs motion against noise, and what is as small as the noise comes out smaller; where the error has been large for long, as on a
+/// road that shakes, slow noise hardly adds to it. The error with look-ahead tells such a road from a turn. An answer with less look-ahead is
+/// given back less, as the same noise weighs more in it, and one that the members dispute more.
 /// A plain value; finite for finite arguments.
 class SlowCorrection {
  public:
+  /// @param newer d_1, d_2, ...: what estimates without look-ahead leave of the samples after this one; empty where there is no look-ahead
   /// @return out
   [[nodiscard]] double apply(double sample, double estimate, const Trust& trust, const JointOptions& options,
-                             const JointScale& scale) noexcept;
+                             const JointScale& scale, std::span<const double> newer = {}) noexcept;
   /// What the last answer was given.
   [[nodiscard]] double paid() const noexcept { return paid_; }
 
  private:
+  [[nodiscard]] double steady_rate(const Trust& trust, const JointOptions& options, const JointScale& scale,
+                                   bool late) noexcept;
+
   double owed_ = 0.0;  ///< sum of samples less answers
   double paid_ = 0.0;
   double steady_ = 0.0;  ///< s

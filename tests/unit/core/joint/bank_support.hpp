@@ -37,6 +37,7 @@ inline core::JointOptions bare() {
   options.correction_rate = 0.0;
   options.correction_share = 0.0;
   options.steady_correction = 0.0;
+  options.late_steady_correction = 0.0;
   options.variance_factor = 1.0;
   options.hand_over_memory = 0.0;
   return options;

@@ -1,9 +1,12 @@
 // What the bank gives back of slow motion, and how fast.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include <gtest/gtest.h>
 
+#include "core/joint/slow_correction.hpp"
 #include "unit/core/joint/bank_support.hpp"
 
 namespace gyrod {
@@ -101,6 +104,29 @@ TEST(KalmanBankCorrection, ForgetsAtOnceThatTheVarianceWasLarge) {
   rates.use(moving(0.001));
   const double rate = rates.step(z[300]);
   EXPECT_NEAR(rate, rates.rate_at(rates.settled()), 1e-9);
+}
+
+// What has been left of the samples since, by the answers at once.
+TEST(KalmanBankCorrection, WithLookAheadKnowsWhatIsLeftOfNewerSamples) {
+  constexpr std::size_t kLookAhead = 8;
+  JointOptions options = bare();
+  options.correction_rate = 0.02;
+  KalmanBank plain(bare(), kLookAhead);
+  KalmanBank bank(options, kLookAhead);
+  plain.use(single(blocks()));
+  bank.use(single(blocks()));
+  core::SlowCorrection beside;
+  const Signal z = simulated(blocks(), 400, 4);
+  Signal left;
+  for (std::size_t t = 0; t < z.size(); ++t) {
+    const core::BankEstimates e = plain.step(z[t]);
+    const double answer = bank.step(z[t]).denoised.rate;
+    left.push_back(z[t] - e.realtime.rate);
+    if (t < kLookAhead) continue;
+    const double expected =
+        beside.apply(z[t - kLookAhead], e.denoised.rate, {}, options, {}, std::span(left).last(kLookAhead));
+    ASSERT_NEAR(answer, expected, 1e-12) << t;
+  }
 }
 
 }  // namespace
