@@ -109,7 +109,7 @@ before(async () => {
   const simulate = ({ vehicle, config }, ...args) => rig.gyrod(vehicle, "simulate", ...args, "--config", config);
   simulate(healthy, "--motion", "drive", "--engine-tone", "1", "--speed", `${kDriveSpeed}`, "--batch", "10");
   driving_ms = Date.now();
-  simulate(overloaded, "--sensors", "2", "--speed", "10");
+  simulate(overloaded, "--sensors", "3", "--speed", "10");
   simulate(parked, "--rate", "10", "--bias-instability", "60", "--speed", "300", "--batch", "10"); // hours, so that B shows
   const started = Object.fromEntries(
     sensors.map(([vehicle, name, fault, healthySamples], n) => [
