@@ -14,6 +14,21 @@
 namespace gyrod::stream {
 namespace {
 
+EngineOptions patient_for_a_second() {
+  EngineOptions options = small_options(1);
+  options.max_delay_s = 1.0;
+  return options;
+}
+
+/// An engine whose one worker passes a gate with each window, and whose clock is set by hand.
+struct SlowWorker {
+  RecordingSink sink;
+  Gatekeeper gate;
+  std::atomic<double> now{0.0};
+  Engine engine{patient_for_a_second(), window_marker([this] { gate.pass(); }), sink,
+                [this] { return now.load(); }};
+};
+
 TEST(Engine, IsConservedAtEveryMomentWhileWorkersRun) {
   RecordingSink sink;
   Engine engine(small_options(2), paper_method({}), sink);
@@ -48,12 +63,8 @@ TEST(Engine, RefusesAndCountsWhatComesAfterTheStop) {
 }
 
 TEST(Engine, PassesThroughFlaggedWhenWorkersAreTooSlowAndRecoversByItself) {
-  RecordingSink sink;
-  Gatekeeper gate;
-  std::atomic<double> now{0.0};
-  EngineOptions options = small_options(1);
-  options.max_delay_s = 1.0;
-  Engine engine(options, window_marker([&gate] { gate.pass(); }), sink, [&now] { return now.load(); });
+  SlowWorker slow;
+  auto& [sink, gate, now, engine] = slow;
   gate.set_open(false);
   engine.push("imu", counting_samples(32));  // the worker hangs in this window
   engine.push("imu", counting_samples(64, 32));
@@ -76,12 +87,8 @@ TEST(Engine, PassesThroughFlaggedWhenWorkersAreTooSlowAndRecoversByItself) {
 }
 
 TEST(Engine, WidensTheHopBeforeItGivesUpDenoising) {
-  RecordingSink sink;
-  Gatekeeper gate;
-  std::atomic<double> now{0.0};
-  EngineOptions options = small_options(1);
-  options.max_delay_s = 1.0;
-  Engine engine(options, window_marker([&gate] { gate.pass(); }), sink, [&now] { return now.load(); });
+  SlowWorker slow;
+  auto& [sink, gate, now, engine] = slow;
   gate.set_open(false);
   engine.push("imu", counting_samples(32));
   now = 0.6;  // past half of the longest delay
@@ -96,12 +103,8 @@ TEST(Engine, WidensTheHopBeforeItGivesUpDenoising) {
 }
 
 TEST(Engine, JudgesAnOverloadThatIsOverBeforeItIsLookedAt) {
-  RecordingSink sink;
-  Gatekeeper gate;
-  std::atomic<double> now{0.0};
-  EngineOptions options = small_options(1);
-  options.max_delay_s = 1.0;
-  Engine engine(options, window_marker([&gate] { gate.pass(); }), sink, [&now] { return now.load(); });
+  SlowWorker slow;
+  auto& [sink, gate, now, engine] = slow;
   const auto overload = [&](std::uint64_t first, double late_s) {
     gate.set_open(false);
     engine.push("imu", counting_samples(32, first));

@@ -33,13 +33,22 @@ JointOptions at_one_rate() {
   return options;
 }
 
+/// What an estimate misses of a step at 0.
+double step_at(int n) { return n >= 0 ? 1.0 : 0.0; }
+
+/// What it misses at n + 1, n + 2, ...
+template <class Missed>
+std::array<double, kAhead> after(int n, const Missed& missed) {
+  std::array<double, kAhead> newer{};
+  for (std::size_t k = 0; k < kAhead; ++k) newer[k] = missed(n + static_cast<int>(k) + 1);
+  return newer;
+}
+
 double half_delay(bool look_ahead) {
   SlowCorrection correction;
-  std::array<double, kAhead> newer{};
   for (int n = -100; n < 200; ++n) {
-    for (std::size_t k = 0; k < kAhead; ++k) newer[k] = n + static_cast<int>(k) + 1 >= 0 ? 1.0 : 0.0;
-    const double missed = n >= 0 ? 1.0 : 0.0;
-    const double paid = correction.apply(missed, 0.0, Trust{}, at_one_rate(), JointScale{},
+    const auto newer = after(n, step_at);
+    const double paid = correction.apply(step_at(n), 0.0, Trust{}, at_one_rate(), JointScale{},
                                          std::span(newer).first(look_ahead ? kAhead : 0));
     if (paid >= 0.5) return n;
   }
@@ -52,11 +61,9 @@ TEST(SlowCorrection, GivesBackAStepAsItsDifferenceEquationSays) {
   SlowCorrection correction;
   const auto h = [](int m) { return m < 0 ? 0.0 : kCorrection * std::pow(1.0 - kCorrection, m); };
   const double kept = 1.0 - kDecay * kCorrection;
-  std::array<double, kAhead> newer{};
   for (int n = -40; n < 400; ++n) {
-    for (std::size_t k = 0; k < kAhead; ++k) newer[k] = n + static_cast<int>(k) + 1 >= 0 ? 1.0 : 0.0;
     const double paid =
-        correction.apply(n >= 0 ? 1.0 : 0.0, 0.0, Trust{}, at_one_rate(), JointScale{}, newer);
+        correction.apply(step_at(n), 0.0, Trust{}, at_one_rate(), JointScale{}, after(n, step_at));
     double expected = n < 0 ? 0.0 : 1.0 - std::pow(1.0 - kCorrection, n + 1);
     for (int k = 1; k <= static_cast<int>(kAhead); ++k) expected += kWeight * std::pow(kept, k) * h(n + k);
     ASSERT_NEAR(paid, expected, 1e-12) << n;
@@ -74,12 +81,11 @@ TEST(SlowCorrection, IsEarlierWhereItLooksAhead) {
 // What is paid early is paid once: in the end the answers have the samples' sum.
 TEST(SlowCorrection, KeepsTheSumOfTheSamples) {
   SlowCorrection correction;
-  std::array<double, kAhead> newer{};
+  const auto missed = [](int n) { return n >= 500 && n < 700 ? 1.0 : 0.0; };
   double owed = 0.0;
   for (int n = 0; n < 3000; ++n) {
-    const auto missed = [](int at) { return at >= 500 && at < 700 ? 1.0 : 0.0; };
-    for (std::size_t k = 0; k < kAhead; ++k) newer[k] = missed(n + static_cast<int>(k) + 1);
-    owed += missed(n) - correction.apply(missed(n), 0.0, Trust{}, at_one_rate(), JointScale{}, newer);
+    owed +=
+        missed(n) - correction.apply(missed(n), 0.0, Trust{}, at_one_rate(), JointScale{}, after(n, missed));
   }
   EXPECT_NEAR(owed, 0.0, 1e-12);
 }
