@@ -63,8 +63,8 @@ constexpr std::array<SensorMetric, 10> kHealthMetrics = {{
      [](const ChannelSnapshot& s, std::size_t axis) {
        return coefficient(s, axis, NoiseTerm::kBiasInstability);
      }},
-    {"gyrod_axis_tone_hertz", "Strongest periodic disturbance in the last window's model.", kGauge, true,
-     tone_frequency},
+    {"gyrod_axis_tone_hertz", "Frequency of the narrow tone that stands out most in the last window.", kGauge,
+     true, tone_frequency},
     {"gyrod_axis_ar_order", "Largest order of the last window's AR models.", kGauge, true, ar_order},
 }};
 

@@ -33,7 +33,7 @@ using Value = std::optional<double>;
   return {axis[0].noise_floor, axis[1].noise_floor, axis[2].noise_floor};
 }
 
-/// Hz, of the last window's strongest periodic disturbance.
+/// Hz, of the narrow tone that stands out most in the last window.
 [[nodiscard]] inline Value tone_frequency(const stream::ChannelSnapshot& sensor, std::size_t axis) {
   const stream::NoiseReport& report = sensor.last_report;
   return has_report(sensor) ? known(report.axis[axis].tone_frequency_cycles * report.sample_rate_hz)

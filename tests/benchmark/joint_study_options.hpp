@@ -32,6 +32,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("pruned_iterations", options.pruned_iterations);
   set("shrinkage", options.shrinkage);
   set("bandwidth_cycles", options.bandwidth_cycles);
+  set("line_prominence", options.line_prominence);
   set("line_pole", options.line_pole);
   set("prune_gain", options.prune_gain);
   set("pole_factor", options.pole_factor);

@@ -92,7 +92,7 @@ struct WindowReport {
   // Model methods only; else 0.
   /// Components of the joint model beside its slowest part.
   std::size_t modes = 0;
-  /// The strongest periodic disturbance that the model holds, cycles per sample, 0 to 0.5; 0 where there is none.
+  /// The narrow tone that stands out most, cycles per sample, 0 to 0.5; 0 where none is sure (core/joint/tone.hpp).
   double tone_frequency_cycles = 0.0;
   /// Its amplitude, in the input's unit.
   double tone_amplitude = 0.0;

@@ -64,9 +64,11 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   knocks_.apply(centred_, options_);
   tapers_.spectrum(centred_, periodogram_);
   judge_noise(noise, model.noise, report);
-  const Tone tone = find_tone(periodogram_);
-  report.tone_frequency_cycles = tone.frequency_cycles;
-  report.tone_amplitude = tone.amplitude * std::sqrt(unit_);
+  const Tone tone = find_tone(periodogram_, options_.line_prominence);
+  if (tone.prominence >= kSureTone) {
+    report.tone_frequency_cycles = tone.frequency_cycles;
+    report.tone_amplitude = tone.amplitude * std::sqrt(unit_);
+  }
   if (!is_usable(noise_)) return;
   decompose(report);
   start_line(tone);

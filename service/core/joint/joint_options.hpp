@@ -40,8 +40,10 @@ struct JointOptions {
   double shrinkage = 0.0075;
   /// Bandwidth below which a mode other than the slow one is not narrowed by the fit, cycles per sample. Range 0..0.1.
   double bandwidth_cycles = 0.001;
-  /// Radius of the poles that the mode of a narrow tone starts with: much less than a window can tell, so that the fit finds the width.
-  /// Range 0..1.
+  /// How far a narrow tone must stand out to get a mode of its own: white noise shows such a one in 0.5 % of windows, and the fit finds
+  /// how much there is of it. Range 1..1e12.
+  double line_prominence = 12.0;
+  /// Radius of the poles that this mode starts with: much less than a window can tell, so that the fit finds the width. Range 0..1.
   double line_pole = 0.999;
   /// A mode is kept by pruning where it buys at least this much of twice the log-likelihood. Range 0..1e4.
   double prune_gain = 25.0;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/joint/joint_options.hpp"
 #include "core/joint/recency_tapers.hpp"
 #include "support/signals.hpp"
 
@@ -15,36 +16,67 @@ namespace {
 
 constexpr std::size_t kWindow = 1024;
 
-Tone tone_of(const testing::Signal& x) {
+Tone found_in(const testing::Signal& x, double least_prominence = kSureTone) {
   RecencyTapers tapers(kWindow, 2, 3.0);
   std::vector<double> power(tapers.bins());
   tapers.spectrum(x, power);
-  return find_tone(power);
+  return find_tone(power, least_prominence);
+}
+
+testing::Signal tone_of(double amplitude, double frequency) {
+  return testing::times(testing::tone(kWindow, frequency), amplitude);
 }
 
 TEST(FindTone, GivesFrequencyAndAmplitude) {
   // The tone of drive0708: 31 Hz at 100 Hz. Half a bin, and what the recency of the tapers leaves of a stationary amplitude.
   for (const double amplitude : {0.5, 3.0}) {
-    const auto x = testing::sum(testing::times(testing::tone(kWindow, 0.31), amplitude),
-                                testing::white_noise(kWindow, 1), 0.1);
-    const Tone found = tone_of(x);
+    const Tone found =
+        found_in(testing::sum(tone_of(amplitude, 0.31), testing::white_noise(kWindow, 1), 0.1));
     EXPECT_NEAR(found.frequency_cycles, 0.31, 0.5 / kWindow);
     EXPECT_NEAR(found.amplitude, amplitude, 0.1 * amplitude);
   }
 }
 
+// Two modes in a row at 0.95 fall off with the fourth power of the frequency: all bins below 0.05 are higher than the tone's.
+TEST(FindTone, SeesATonePastStrongerMotion) {
+  const auto motion = testing::autoregressive(std::vector<double>{1.9, -0.9025}, kWindow, 1);
+  const Tone found = found_in(testing::sum(tone_of(2.0, 0.0945), motion));
+  EXPECT_NEAR(found.frequency_cycles, 0.0945, 0.5 / kWindow);
+  EXPECT_NEAR(found.amplitude, 2.0, 0.4);
+  EXPECT_EQ(found_in(motion).amplitude, 0.0);
+}
+
+// Of three tones the one counts that stands out most: not the strongest, which is where motion is strong, too, nor the last.
+TEST(FindTone, PrefersTheToneThatStandsOut) {
+  const auto motion = testing::autoregressive(std::vector<double>{1.9, -0.9025}, kWindow, 1);
+  const auto x = testing::sum(testing::sum(motion, tone_of(3.0, 0.0945)),
+                              testing::sum(tone_of(2.0, 0.3), tone_of(0.5, 0.45)));
+  EXPECT_NEAR(found_in(x).frequency_cycles, 0.3, 0.5 / kWindow);
+}
+
+TEST(FindTone, TellsHowFarItStandsOut) {
+  const auto x = testing::sum(tone_of(0.3, 0.2), testing::white_noise(kWindow, 1));
+  const double prominence = found_in(x, 5.0).prominence;
+  EXPECT_GT(prominence, 5.0);
+  EXPECT_GT(found_in(x, 0.99 * prominence).amplitude, 0.0);
+  EXPECT_EQ(found_in(x, 1.01 * prominence).amplitude, 0.0);
+}
+
+// Of 10 000 windows of this kind 102 show a line of prominence 11 or more, 54 one of 12, 1 one of 18, none one of 20.
 TEST(FindTone, SeesNoneInWhiteNoise) {
-  int found = 0;
-  for (unsigned seed = 1; seed <= 200; ++seed) {
-    if (tone_of(testing::white_noise(kWindow, seed)).amplitude > 0.0) ++found;
+  int likely = 0;
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    const auto x = testing::white_noise(kWindow, seed);
+    EXPECT_EQ(found_in(x).amplitude, 0.0) << "seed " << seed;
+    if (found_in(x, JointOptions{}.line_prominence).amplitude > 0.0) ++likely;
   }
-  EXPECT_LE(found, 2);
+  EXPECT_LE(likely, 20);
 }
 
 TEST(FindTone, SeesNoneInSlowMotionOrNothing) {
-  EXPECT_EQ(tone_of(testing::tone(kWindow, 0.003)).amplitude, 0.0);
-  EXPECT_EQ(tone_of(testing::Signal(kWindow)).amplitude, 0.0);
-  EXPECT_EQ(find_tone(std::vector<double>(20, 1.0)).amplitude, 0.0);
+  EXPECT_EQ(found_in(testing::tone(kWindow, 0.003)).amplitude, 0.0);
+  EXPECT_EQ(found_in(testing::Signal(kWindow)).amplitude, 0.0);
+  EXPECT_EQ(find_tone(std::vector<double>(20, 1.0), kSureTone).amplitude, 0.0);
 }
 
 }  // namespace
