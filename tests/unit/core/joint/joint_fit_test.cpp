@@ -159,7 +159,6 @@ TEST(JointFit, ReportsAToneWhenItIsSure) {
   EXPECT_EQ(reported(0.0).tone_amplitude, 0.0);
 }
 
-// A white part of 1e-300 beside a colour of 1 overflows in the Riccati equation.
 // With its drive divided by 16 the tone would be all but given up by the still member: its innovations would have 0.64 of the variance.
 TEST(JointFit, NoMemberDoubtsATone) {
   const Signal tone = testing::times(testing::tone(kWindow, 0.225), 3.0);
@@ -169,6 +168,7 @@ TEST(JointFit, NoMemberDoubtsATone) {
   EXPECT_GT(model.member(core::MemberKind::kStill).innovation_variance, 0.72 * full);
 }
 
+// A white part of 1e-300 beside a colour of 1 overflows in the Riccati equation.
 TEST(JointFit, AMemberThatFailsKeepsWhatItHad) {
   JointFit fit(kWindow);
   WindowReport report;

@@ -37,7 +37,7 @@ TEST(FindTone, GivesFrequencyAndAmplitude) {
   }
 }
 
-// Two modes in a row at 0.95 fall off with the fourth power of the frequency: all bins below 0.05 are higher than the tone's.
+// Two modes in a row at 0.95 fall off with the fourth power of the frequency: below 0.03 the motion is higher than the tone.
 TEST(FindTone, SeesATonePastStrongerMotion) {
   const auto motion = testing::autoregressive(std::vector<double>{1.9, -0.9025}, kWindow, 1);
   const Tone found = found_in(testing::sum(tone_of(2.0, 0.0945), motion));
