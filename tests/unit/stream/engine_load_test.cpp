@@ -105,25 +105,30 @@ TEST(Engine, WidensTheHopBeforeItGivesUpDenoising) {
 TEST(Engine, JudgesAnOverloadThatIsOverBeforeItIsLookedAt) {
   SlowWorker slow;
   auto& [sink, gate, now, engine] = slow;
-  const auto overload = [&](std::uint64_t first, double late_s) {
+  // From `first` on: a window that the worker hangs in, and 64 samples that come before or after `late_s`.
+  const auto overload = [&](std::uint64_t first, double late_s, bool samples_before) {
     gate.set_open(false);
     engine.push("imu", counting_samples(32, first));
+    gate.wait_for_entry();
+    if (samples_before) engine.push("imu", counting_samples(64, first + 32));
     now = now + late_s;
-    engine.push("imu", counting_samples(64, first + 32));
+    if (!samples_before) engine.push("imu", counting_samples(64, first + 32));
     gate.set_open(true);
     engine.wait_idle();
-    engine.push("imu", counting_samples(320, first + 96));
-    engine.wait_idle();
+    for (std::uint64_t n = first + 96; n < first + 416; n += 32) {
+      engine.push("imu", counting_samples(32, n));
+      engine.wait_idle();
+    }
   };
   const auto judged = [&engine] {
     engine.judge_health();
     return std::pair(engine.channels(1)[0].health->state, engine.snapshot().overload_step);
   };
-  overload(0, 10.0);
+  overload(0, 10.0, true);  // past the longest delay of the windows that wait
   ASSERT_FALSE(engine.channels(1)[0].pass_through);
   EXPECT_EQ(judged(), std::pair(Health::kDegraded, 2U));
   EXPECT_EQ(judged().second, 0U) << "and was said once";
-  overload(416, 0.6);  // past half of the longest delay
+  overload(416, 0.6, false);  // past half of the longest delay when the next come
   ASSERT_EQ(sink.samples("imu").back().flags & static_cast<std::uint32_t>(SampleFlag::kHopWidened), 0U);
   EXPECT_EQ(judged(), std::pair(Health::kDegraded, 1U));
   EXPECT_EQ(judged().second, 0U);

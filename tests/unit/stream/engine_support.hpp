@@ -63,14 +63,15 @@ class Gatekeeper {
  public:
   void pass() {
     std::unique_lock lock(mutex_);
-    ++entered_;
+    ++waiting_;
     changed_.notify_all();
     changed_.wait(lock, [this] { return open_; });
+    --waiting_;
   }
-  /// Waits until somebody has come to the gate.
+  /// Waits until somebody waits at the gate, which is closed.
   void wait_for_entry() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return entered_ > 0; });
+    changed_.wait(lock, [this] { return waiting_ > 0; });
   }
   void set_open(bool open) {
     {
@@ -84,7 +85,7 @@ class Gatekeeper {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool open_ = true;
-  int entered_ = 0;
+  int waiting_ = 0;
 };
 
 }  // namespace gyrod::stream
