@@ -57,6 +57,14 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("residual_weight", options.residual_weight);
   set("residual_decay", options.residual_decay);
   set("steady_memory", options.steady_memory);
+  set("most_gain", options.most_gain);
+  set("gain_doubt", options.gain_doubt);
+  set("gain_ridge", options.gain_ridge);
+  set("gain_clip", options.gain_clip);
+  set("gain_band", options.gain_band);
+  set("gain_follow", options.gain_follow);
+  set("gain_mean", options.gain_mean);
+  set("gain_memory", options.gain_memory);
   set("residual_limit", options.residual_limit);
   set("residual_mean_limit", options.residual_mean_limit);
   set("residual_memory", options.residual_memory);

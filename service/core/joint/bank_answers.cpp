@@ -47,7 +47,7 @@ BankEstimate KalmanBank::held(std::size_t age) const noexcept {
   estimate.rate += denoised_correction_.step;
   ResidualCheck check = denoised_correction_.residual;
   estimate = check.apply(sample_at(count_ - 1 - age), estimate, model_.residual_variance * unit_, options_);
-  estimate.rate += denoised_correction_.slow.paid();
+  estimate.rate += denoised_correction_.slow.paid() + denoised_correction_.gain.paid();
   estimate.variance = widened(estimate.variance);
   return estimate;
 }
@@ -67,6 +67,7 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
   if (lag == 0) residuals_[(count_ - 1) % kRing] = sample - answer.rate;
   answer.rate =
       correction.slow.apply(sample, answer.rate, trust, options_, model_.scale, std::span(newer).first(lag));
+  if (lag > 0) answer.rate = correction.gain.apply(sample, answer.rate, noise, options_, model_.scale);
   answer.variance = widened(answer.variance);
 }
 

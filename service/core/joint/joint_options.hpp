@@ -87,7 +87,7 @@ struct JointOptions {
   double most_steady_correction = 0.05;
   /// The same of answers with look-ahead, which may be given back more: this much of the ratio's fourth power, and up to which rate. Range 0..1e6;
   /// 0..1.
-  double late_steady_correction = 1000.0;
+  double late_steady_correction = 700.0;
   double most_late_steady_correction = 0.06;
   /// What answers with look-ahead miss shows in newer samples, too: the residual k samples later counts by residual_weight
   /// (1 - residual_decay rate)^k. In part, as it is that of an estimate without look-ahead, which misses more; and the less, the faster the
@@ -96,6 +96,21 @@ struct JointOptions {
   double residual_decay = 3.0;
   /// Samples in which a least ratio that is over is forgotten. Range 1..1e9.
   double steady_memory = 2048.0;
+  /// What answers with look-ahead lack of slow motion in size shows in what they leave of the samples, and is added, up to this part of them.
+  /// Range 0..0.5.
+  double most_gain = 0.1;
+  /// Of that so much may be chance: what is this much counts half. Range 0..1.
+  double gain_doubt = 0.01;
+  /// The noise of the samples counts this much of its variance against it, where slow motion is small. Range 0..1e6.
+  double gain_ridge = 0.015;
+  /// What is added is bounded to this many standard deviations of slow motion. Range 0..1e6.
+  double gain_clip = 3.0;
+  /// Samples: of the low-passes that make motion slow (24: below some 0.5 Hz), of the one of what is added (3: with it, a swing of 1 Hz, too), of the
+  /// mean that is left as it is, and of what is learned. Range 1..1e9.
+  double gain_band = 24.0;
+  double gain_follow = 3.0;
+  double gain_mean = 512.0;
+  double gain_memory = 4096.0;
   /// What an estimate takes off the samples is noise, up to this many times its variance in one sample, and this many in the mean of late; what
   /// is more goes back. Range 1..1e12.
   double residual_limit = 25.0;
@@ -129,7 +144,7 @@ class JointScale {
   [[nodiscard]] double shrinkage(double shrinkage) const noexcept;
 
   /// samples * faster: the same seconds.
-  [[nodiscard]] double steady_memory(double samples) const noexcept { return samples * faster_; }
+  [[nodiscard]] double memory(double samples) const noexcept { return samples * faster_; }
   /// rate * fewer / faster, at most 0.1: the same seconds; and it makes up for the window's mean, which wanders faster in a shorter window.
   [[nodiscard]] double correction_rate(double rate) const noexcept;
 

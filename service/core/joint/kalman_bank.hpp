@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/joint/bank_estimate.hpp"
+#include "core/joint/gain_correction.hpp"
 #include "core/joint/joint_model.hpp"
 #include "core/joint/joint_options.hpp"
 #include "core/joint/residual_check.hpp"
@@ -28,7 +29,7 @@ struct BankEstimates {
 /// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2), published times
 /// variance_factor. What is left of the step that the last new model made (a fifth less with every sample) is taken back, so that a new model
 /// begins where the last one was. What the noise cannot have been goes back (residual_check.hpp), and a slow correction (slow_correction.hpp)
-/// makes of that the answer; what it owes stays owed.
+/// makes of that the answer; what it owes stays owed. With look-ahead, what the answer lacks in size is added (gain_correction.hpp).
 /// Before the first model, three local levels (random walks seen in white noise) answer.
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -72,6 +73,7 @@ class KalmanBank {
     double step = 0.0;  ///< what is left of the step from the last model's answer to the next one's
     ResidualCheck residual;
     SlowCorrection slow;
+    GainCorrection gain;  ///< with look-ahead
   };
 
   void correct(double sample, std::size_t lag, Correction& correction, BankEstimate& answer) noexcept;

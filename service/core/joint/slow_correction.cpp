@@ -37,7 +37,7 @@ double SlowCorrection::steady_rate(const Trust& trust, const JointOptions& optio
   const double now = std::min(trust.now, kMostRatio);
   const double settled = std::min(trust.settled, kMostRatio);
   const double expected = std::clamp(trust.expected, settled, kMostRatio);
-  steady_ = std::min(settled, steady_ + (settled - steady_) / scale.steady_memory(options.steady_memory));
+  steady_ = std::min(settled, steady_ + (settled - steady_) / scale.memory(options.steady_memory));
   if (!(expected > 0.0)) return 0.0;
   const double cube = steady_ * steady_ * steady_;
   const double given_back = settled / expected * std::max(now / expected, 1.0);

@@ -31,13 +31,14 @@ inline core::JointModel single(const core::BlockSet& set, double mean = 0.0) {
   return model;
 }
 
-/// No slow correction, no widening, hand-overs at once.
+/// No corrections, no widening, hand-overs at once.
 inline core::JointOptions bare() {
   core::JointOptions options;
   options.correction_rate = 0.0;
   options.correction_share = 0.0;
   options.steady_correction = 0.0;
   options.late_steady_correction = 0.0;
+  options.most_gain = 0.0;
   options.variance_factor = 1.0;
   options.hand_over_memory = 0.0;
   return options;

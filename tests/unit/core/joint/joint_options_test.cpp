@@ -20,7 +20,7 @@ TEST(JointScale, LeavesAllAsItIsAtTheDesignAndWhereTheRateIsUnknown) {
   EXPECT_EQ(none.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
   EXPECT_EQ(none.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
   EXPECT_EQ(none.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
-  EXPECT_EQ(none.steady_memory(kOptions.steady_memory), kOptions.steady_memory);
+  EXPECT_EQ(none.memory(kOptions.steady_memory), kOptions.steady_memory);
   EXPECT_EQ(none.recency(kOptions.recency), kOptions.recency);
   EXPECT_EQ(none.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
 }
@@ -71,8 +71,8 @@ TEST(JointScale, ShortWindowsTrustThePriorMoreUpToALimit) {
 }
 
 TEST(JointScale, WhatIsSteadyIsSoForTheSameSeconds) {
-  EXPECT_EQ(JointScale(480.0, 1024).steady_memory(512.0), 2048.0);
-  EXPECT_EQ(JointScale(120.0, 512).steady_memory(512.0), 512.0);
+  EXPECT_EQ(JointScale(480.0, 1024).memory(512.0), 2048.0);
+  EXPECT_EQ(JointScale(120.0, 512).memory(512.0), 512.0);
 }
 
 // Half the samples, twice the rate, whatever the seconds.

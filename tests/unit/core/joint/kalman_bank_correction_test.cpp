@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/joint/gain_correction.hpp"
 #include "core/joint/slow_correction.hpp"
 #include "unit/core/joint/bank_support.hpp"
 
@@ -127,6 +128,33 @@ TEST(KalmanBankCorrection, WithLookAheadKnowsWhatIsLeftOfNewerSamples) {
         beside.apply(z[t - kLookAhead], e.denoised.rate, {}, options, {}, std::span(left).last(kLookAhead));
     ASSERT_NEAR(answer, expected, 1e-12) << t;
   }
+}
+
+// Of the answers with look-ahead alone, by what they leave of their own samples; an answer that is held until the end has what the last one was given.
+TEST(KalmanBankCorrection, GivesAnswersWithLookAheadTheSizeOfSlowMotion) {
+  constexpr std::size_t kLookAhead = 8;
+  JointOptions options = bare();
+  options.most_gain = 0.1;
+  options.gain_memory = 64.0;
+  KalmanBank plain(bare(), kLookAhead);
+  KalmanBank bank(options, kLookAhead);
+  JointModel model = moving(0.1);
+  plain.use(model);
+  bank.use(model);
+  core::GainCorrection beside;
+  const Signal z = simulated(blocks(), 400, 4);
+  double most = 0.0;
+  for (std::size_t t = 0; t < z.size(); ++t) {
+    const core::BankEstimates without = plain.step(z[t]);
+    const core::BankEstimates with = bank.step(z[t]);
+    ASSERT_EQ(with.realtime.rate, without.realtime.rate) << t;
+    if (t < kLookAhead) continue;
+    const double expected = beside.apply(z[t - kLookAhead], without.denoised.rate, kBankNoise, options, {});
+    ASSERT_NEAR(with.denoised.rate, expected, 1e-12) << t;
+    ASSERT_NEAR(bank.held(3).rate - plain.held(3).rate, beside.paid(), 1e-12) << t;
+    most = std::max(most, std::abs(beside.paid()));
+  }
+  EXPECT_GT(most, 0.0);
 }
 
 }  // namespace

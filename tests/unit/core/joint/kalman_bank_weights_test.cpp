@@ -130,7 +130,7 @@ TEST(KalmanBank, ANewModelMakesNoStep) {
 }
 
 // The scale of a model acts on what the bank was given, and on nothing else.
-TEST(KalmanBank, TakesSwitchingAndCorrectionAtTheModelsScale) {
+TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
   const Signal z = simulated(blocks(), 500, 9);
   JointModel model = single(blocks());
   model.noise_variance = kBankNoise;
@@ -144,7 +144,9 @@ TEST(KalmanBank, TakesSwitchingAndCorrectionAtTheModelsScale) {
   bank.use(scaled);
   options.switching_rate = scaled.scale.switching_rate(options.switching_rate);
   options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
-  options.steady_memory = scaled.scale.steady_memory(options.steady_memory);
+  for (double* samples : {&options.steady_memory, &options.gain_band, &options.gain_follow,
+                          &options.gain_mean, &options.gain_memory})
+    *samples = scaled.scale.memory(*samples);
   KalmanBank expected(options, 16);
   expected.use(model);
   for (const double sample : z)
