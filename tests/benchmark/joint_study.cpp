@@ -4,7 +4,7 @@
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
+// (first sample of the noise), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
 // that were moved by hand, their own rates the truth, no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
@@ -117,6 +117,13 @@ void resample(test::DriveRow& row, double rate_hz) {
   row.rate_hz = rate_hz;
 }
 
+/// [begin, end) in samples; the answers to the last of them are 32 late at most.
+std::array<std::size_t, 2> judged_part(const test::DriveRow& row, const Arguments& arguments) {
+  const auto begin = static_cast<std::size_t>(number(arguments, "from", 20) * row.rate_hz);
+  const auto end = static_cast<std::size_t>(number(arguments, "to", 80) * row.rate_hz);
+  return {begin, std::min(end, row.noisy_dps.size() - 32)};
+}
+
 struct Figures {
   std::array<double, kLags.size()> rmse{};
   double normalised_error = 0.0;  ///< mean of error^2 / published variance, lag 16
@@ -135,8 +142,7 @@ Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Argu
   for (const std::size_t lag : kLags) banks.emplace_back(options, lag);
   const auto model = std::make_unique<core::JointModel>();
   core::WindowReport report;
-  const auto begin = static_cast<std::size_t>(20.0 * row.rate_hz);
-  const std::size_t end = std::min(static_cast<std::size_t>(80.0 * row.rate_hz), row.noisy_dps.size() - 32);
+  const auto [begin, end] = judged_part(row, arguments);
   Figures figures;
   std::array<test::SlowGain, 2> gains{test::SlowGain(row.rate_hz), test::SlowGain(row.rate_hz)};
   double windows = 0.0;
@@ -176,10 +182,9 @@ Figures run(const test::DriveRow& row, const core::NoiseModel& noise, const Argu
   return figures;
 }
 
-std::array<double, kLags.size()> best_butterworth(const test::DriveRow& row) {
+std::array<double, kLags.size()> best_butterworth(const test::DriveRow& row, const Arguments& arguments) {
   std::array<double, kLags.size()> best{};
-  const auto begin = static_cast<std::size_t>(20.0 * row.rate_hz);
-  const std::size_t end = std::min(static_cast<std::size_t>(80.0 * row.rate_hz), row.noisy_dps.size() - 32);
+  const auto [begin, end] = judged_part(row, arguments);
   double sum = 0.0;  // raw is a rival, too
   std::size_t known = 0;
   for (std::size_t n = begin; n < end; ++n) {
@@ -228,7 +233,7 @@ int study(const Arguments& arguments) {
     std::printf("%-12s ", row.name.c_str());
     print("", figures.rmse);
     if (rivals) {
-      auto ratios = best_butterworth(row);
+      auto ratios = best_butterworth(row, arguments);
       for (std::size_t i = 0; i < kLags.size(); ++i) {
         ratios[i] = figures.rmse[i] / ratios[i];
         worst_rival = std::max(worst_rival, ratios[i]);

@@ -78,6 +78,8 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
   whittle_.prune(pruned_, options_.prune_gain);
   whittle_.iterate(pruned_, options_.pruned_iterations);
+  share_out(full_);
+  share_out(pruned_);
   model.mean = report.mean;
   model.scale = scale_;
   design(model);
@@ -183,7 +185,7 @@ void JointFit::design(JointModel& model) noexcept {
       scale_.agile_drive(options_.agile_drive) * model.member(MemberKind::kFull).innovation_variance / unit_;
   const double rho = options_.level_pole;
   const double d = options_.slope_pole;
-  FilterBlock agile{.order = 1, .a = {rho}, .drive = drive, .signal = true};
+  FilterBlock agile{.order = 1, .a = {rho}, .drive = drive, .signal = 1.0};
   make(with_agile(agile), MemberKind::kLevel, model);
   agile.order = 2;
   agile.a = {rho + d, -rho * d};
@@ -209,9 +211,10 @@ void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
 BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
   BlockSet set;
   for (const SpectralMode& mode : modes.modes()) {
-    FilterBlock block{.order = kModeOrder,
-                      .drive = mode.drive * (mode.slow || mode.line ? 1.0 : drive_ratio),
-                      .signal = is_signal(mode)};
+    const double harder = mode.slow || mode.line ? 1.0 : drive_ratio;
+    FilterBlock block{.order = kModeOrder, .drive = mode.drive * harder, .signal = mode.share};
+    if (mode.share > 0.0 && mode.share < 1.0)
+      block.apart = mode.share * (1.0 - mode.share) * harder * whittle_.weigh(mode).power;
     double factor = 1.0;
     for (std::size_t i = 0; i < kModeOrder; ++i) {
       factor *= options_.pole_factor;
@@ -223,18 +226,28 @@ BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept 
   return set;
 }
 
-/// Not what lies above the signal band, nor what is no more than the noise's own line, moved.
-bool JointFit::is_signal(const SpectralMode& mode) noexcept {
-  if (mode.slow || (max_signal_cycles_ >= 0.5 && peak_.power == 0.0)) return true;
-  const auto [centre_cycles, power] = whittle_.weigh(mode);
-  return centre_cycles <= max_signal_cycles_ && !peak_.may_be(centre_cycles, power);
+/// What lies above the signal band is no motion, nor is what the noise's own line may have moved to.
+void JointFit::share_out(ModeSet& modes) noexcept {
+  if (max_signal_cycles_ >= 0.5 && peak_.power == 0.0) return;
+  std::array<ModeNearLine, kMaxModes> candidates{};
+  std::size_t count = 0;
+  for (SpectralMode& mode : modes.modes()) {
+    if (mode.slow) continue;
+    const auto [centre_cycles, power] = whittle_.weigh(mode);
+    if (centre_cycles > max_signal_cycles_)
+      mode.share = 0.0;
+    else if (peak_.reaches(centre_cycles))
+      candidates[count++] = {&mode, power};
+  }
+  if (count > 0)
+    share_with_line(peak_, whittle_.expected_line(modes, peak_), std::span(candidates).first(count));
 }
 
-/// Variance of the modes that are no signal.
+/// Variance of what is left out of the modes.
 double JointFit::left_out() noexcept {
   double sum = 0.0;
   for (const SpectralMode& mode : full_.modes()) {
-    if (!is_signal(mode)) sum += whittle_.weigh(mode).power;
+    if (mode.share < 1.0) sum += (1.0 - mode.share) * whittle_.weigh(mode).power;
   }
   return sum;
 }

@@ -63,7 +63,7 @@ class JointFit {
   void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
   [[nodiscard]] double left_out() noexcept;
-  [[nodiscard]] bool is_signal(const SpectralMode& mode) noexcept;
+  void share_out(ModeSet& modes) noexcept;
   [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
 
   JointOptions options_;

@@ -26,7 +26,7 @@ MemberModel local_level(double ratio) noexcept {
   level.order = 1;
   level.a[0] = 1.0;
   level.drive = ratio;
-  level.signal = true;
+  level.signal = 1.0;
   member.blocks.add(level);
   member.states = 1;
   const double X = 0.5 * (ratio + std::sqrt(ratio * ratio + 4.0 * ratio));
@@ -186,7 +186,7 @@ void KalmanBank::predict_and_update(std::size_t index, double sample, std::uint6
     for (std::size_t i = block.order - 1; i > 0; --i) x[i] = x[i - 1];
     x[0] = head;
     sum += head;
-    if (block.signal) signal += head;
+    signal += block.signal * head;
     x += block.order;
   }
   const double nu = sample - model_.mean - sum;

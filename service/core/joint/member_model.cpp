@@ -32,7 +32,7 @@ class MemberDesigner::Workspace {
     member.prediction_variance = 0.0;
     std::size_t head = 0;
     for (const FilterBlock& block : blocks.all()) {
-      if (block.signal) member.prediction_variance += signal_covariance_[head];
+      member.prediction_variance += block.signal * signal_covariance_[head] + block.apart;
       head += block.order;
     }
     smooth(member);
@@ -47,8 +47,8 @@ class MemberDesigner::Workspace {
     const std::size_t states = riccati_.observed_covariance().size();
     std::size_t head = 0;
     for (const FilterBlock& block : blocks.all()) {
-      for (std::size_t i = 0; block.signal && i < states; ++i) {
-        signal_covariance_[i] += riccati_.covariance(head, i);
+      for (std::size_t i = 0; block.signal > 0.0 && i < states; ++i) {
+        signal_covariance_[i] += block.signal * riccati_.covariance(head, i);
       }
       head += block.order;
     }

@@ -20,8 +20,12 @@ inline constexpr std::size_t kMaxStates = kMaxModes * kModeOrder + 2 + kMaxNoise
 struct FilterBlock {
   std::size_t order = 0;
   std::array<double, kMaxNoiseColour> a{};
-  double drive = 0.0;   ///< unit^2
-  bool signal = false;  ///< part of what is estimated; false for the noise's colour
+  double drive = 0.0;  ///< unit^2
+  /// How much of it is estimated, 0..1, of its variance: the sum of two processes alike but for their drives, one of them signal, is known
+  /// by its sum only, and this much of that is expected to be the signal. 0 for the noise's colour.
+  double signal = 0.0;
+  /// signal (1 - signal) times the block's variance, unit^2: what the sum does not tell of the signal in it. 0 where signal is 0 or 1.
+  double apart = 0.0;
 };
 
 /// The blocks of a member; a plain value.
@@ -34,14 +38,14 @@ struct BlockSet {
   void add(const FilterBlock& block) noexcept { blocks[count++] = block; }
 };
 
-/// z[t] = H' x[t] + v, v ~ N(0, r), x = A x + w with A of companion blocks, H = 1 at each block's head, C = H of the signal blocks. In
+/// z[t] = H' x[t] + v, v ~ N(0, r), x = A x + w with A of companion blocks, H = 1 at each block's head, C = H times each block's signal. In
 /// the steady state, with X the prediction's covariance, S = H' X H + r, F = A (I - K H'):
 struct MemberModel {
   BlockSet blocks;
   std::size_t states = 0;
   std::array<double, kMaxStates> gain{};  ///< K = X H / S
   double innovation_variance = 0.0;       ///< S, unit^2
-  double prediction_variance = 0.0;       ///< C' X C, of the predicted signal's error, unit^2
+  double prediction_variance = 0.0;       ///< C' X C + apart, of the predicted signal's error, unit^2
   /// g_k = C' X (F')^k H / S: the signal k samples ago is better known by g_k times the newest innovation.
   std::array<double, kMaxLag + 1> smoothing{};
   bool usable = false;

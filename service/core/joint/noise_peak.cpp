@@ -24,9 +24,8 @@ Band around(std::size_t peak, std::size_t bins) noexcept {
 
 }  // namespace
 
-bool NoisePeak::may_be(double centre_cycles, double mode_power) const noexcept {
-  return power > 0.0 && std::abs(centre_cycles - cycles) <= kReach * cycles &&
-         mode_power <= kMostPower * power;
+bool NoisePeak::reaches(double centre_cycles) const noexcept {
+  return power > 0.0 && std::abs(centre_cycles - cycles) <= kReach * cycles;
 }
 
 NoisePeak noise_peak(std::span<const double> spectrum) noexcept {
@@ -45,10 +44,27 @@ NoisePeak noise_peak(std::span<const double> spectrum) noexcept {
     ++count;
   }
   if (!(count > 0.0) || !(*highest * count > kStandsOut * elsewhere)) return {};
-  NoisePeak result{.cycles = 0.5 * static_cast<double>(peak) / static_cast<double>(bins - 1)};
+  NoisePeak result{.cycles = 0.5 * static_cast<double>(peak) / static_cast<double>(bins - 1),
+                   .surroundings = elsewhere / count,
+                   .first_bin = band.first,
+                   .end_bin = band.end};
   for (std::size_t k = band.first; k < band.end; ++k)
-    result.power += std::max(0.0, spectrum[k] - elsewhere / count) / static_cast<double>(bins);
+    result.power += std::max(0.0, spectrum[k] - result.surroundings) / static_cast<double>(bins);
   return result;
+}
+
+void share_with_line(const NoisePeak& peak, double expected, std::span<ModeNearLine> modes) noexcept {
+  // Innovation over variance, the spectral flatness: 0 for a line, 1 for white noise.
+  std::ranges::sort(modes, {}, [](const ModeNearLine& near) { return near.mode->drive / near.power; });
+  double missing = std::max(peak.power - expected, 0.0);
+  double left = std::max(NoisePeak::kMostPower * peak.power - expected, 0.0);
+  for (const auto& [mode, power] : modes) {
+    double line = power;
+    if (power > left) line = std::lerp(left, std::min(missing, left), std::min(power / left - 1.0, 1.0));
+    left -= line;
+    missing = std::max(missing - line, 0.0);
+    mode->share = 1.0 - line / power;
+  }
 }
 
 }  // namespace gyrod::core

@@ -102,6 +102,17 @@ WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
           .power = power / static_cast<double>(bins_)};
 }
 
+double WhittleFit::expected_line(const ModeSet& modes, const NoisePeak& peak) noexcept {
+  sum_spectra(modes);
+  double sum = 0.0;
+  for (std::size_t k = peak.first_bin; k < peak.end_bin; ++k) {
+    const double line = std::max(noise_[k] - peak.surroundings, 0.0);
+    const double part = line / sum_[k];
+    sum += line + part * part * (observed_[k] - sum_[k]);
+  }
+  return sum / static_cast<double>(bins_);
+}
+
 SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool slow) const noexcept {
   assert(autocovariance.size() == kLags);
   std::array<double, kLags> r{};

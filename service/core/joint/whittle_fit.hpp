@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/joint/joint_options.hpp"
+#include "core/joint/noise_peak.hpp"
 #include "core/joint/spectral_kernel.hpp"
 #include "core/joint/spectral_mode.hpp"
 #include "core/noise/noise_model.hpp"
@@ -51,6 +52,11 @@ class WhittleFit {
     double power = 0.0;  ///< its variance, in the periodogram's unit
   };
   [[nodiscard]] Weight weigh(const SpectralMode& mode) noexcept;
+
+  /// Power of the noise's line, as expected of a window with these modes in it: (L / M)^2 I + L (1 - L / M), with L what of R stands above the
+  /// peak's surroundings. The peak's power where the line is where R has it, less where it has moved away.
+  /// @param peak noise_peak(noise())
+  [[nodiscard]] double expected_line(const ModeSet& modes, const NoisePeak& peak) noexcept;
 
   /// The mode whose autocovariances r_0 .. r_kModeOrder are given.
   [[nodiscard]] SpectralMode mode_of(std::span<const double> autocovariance, bool slow) const noexcept;

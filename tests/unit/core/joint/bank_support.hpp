@@ -18,8 +18,8 @@ inline constexpr double kBankNoise = 0.7;
 inline core::BlockSet blocks() {
   core::BlockSet set;
   set.add(oscillation(0.95, 0.4, 0.8));
-  set.add({.order = 1, .a = {0.97}, .drive = 0.5, .signal = true});
-  set.add(oscillation(0.6, 1.5, 0.6, false));
+  set.add({.order = 1, .a = {0.97}, .drive = 0.5, .signal = 1.0});
+  set.add(oscillation(0.6, 1.5, 0.6, 0.0));
   return set;
 }
 

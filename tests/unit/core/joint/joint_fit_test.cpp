@@ -98,6 +98,20 @@ TEST(JointFit, KnowsWhatResidualsMayBe) {
   EXPECT_GT(model.residual_variance, 1.2 * model.noise_variance);
 }
 
+// The tone is the only thing there, and above the band.
+TEST(JointFit, AboveTheSignalBandNothingIsSignal) {
+  const Signal z = testing::sum(testing::white_noise(kWindow, 3), testing::tone(kWindow, 0.2), 2.0);
+  const auto signal_variance = [&z](double max_signal_cycles) {
+    JointModel model;
+    WindowReport report;
+    JointFit fit(kWindow);
+    fit.set_max_signal(max_signal_cycles);
+    fit.fit(z, core::white_noise(1.0), model, report);
+    return model.member(core::MemberKind::kFull).prediction_variance;
+  };
+  EXPECT_LT(signal_variance(0.1), 0.1 * signal_variance(0.3));
+}
+
 // Nothing can be told from a sensor that is stuck.
 TEST(JointFit, AConstantWindowLeavesTheModelAlone) {
   JointFit fit(kWindow);

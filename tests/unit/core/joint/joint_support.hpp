@@ -64,7 +64,7 @@ inline double rms_difference(const Signal& a, const Signal& b, std::size_t begin
 }
 
 /// A block whose roots are radius e^(+-i angle).
-inline core::FilterBlock oscillation(double radius, double angle, double drive, bool signal = true) {
+inline core::FilterBlock oscillation(double radius, double angle, double drive, double signal = 1.0) {
   return {
       .order = 2, .a = {2.0 * radius * std::cos(angle), -radius * radius}, .drive = drive, .signal = signal};
 }

@@ -40,7 +40,7 @@ JointOptions correcting() {
 /// Motion driven by `drive` times the variance: the more, the larger is P.
 JointModel moving(double drive) {
   BlockSet set = blocks();
-  for (core::FilterBlock& block : set.blocks) block.drive *= block.signal ? drive : 1.0;
+  for (core::FilterBlock& block : set.blocks) block.drive *= block.signal > 0.0 ? drive : 1.0;
   JointModel model = single(set);
   model.noise_variance = kBankNoise;
   return model;

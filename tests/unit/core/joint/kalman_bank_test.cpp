@@ -55,7 +55,7 @@ struct Batch {
         for (Eigen::Index j = 0; j < n; ++j) {
           const double value = r[static_cast<std::size_t>(std::abs(i - j))];
           Cz(i, j) += value;
-          if (block.signal) Cs(i, j) += value;
+          Cs(i, j) += block.signal * value;
         }
       }
     }
@@ -87,6 +87,24 @@ TEST(KalmanBank, EqualsTheConditionalMeanOfTheWholeRecord) {
     EXPECT_NEAR(bank.held(age).rate, batch.mean(then), 1e-8) << age;
     EXPECT_NEAR(bank.held(age).variance, batch.variance(then), 1e-8) << age;
   }
+}
+
+// A process of which only a part is signal is two processes of the same spectrum, one of them noise.
+TEST(KalmanBank, GivesOfASharedProcessTheSignalsPart) {
+  BlockSet set = blocks();
+  FilterBlock& shared = set.blocks[0];
+  shared.signal = 0.6;
+  shared.apart = 0.6 * 0.4 * autocovariance(shared, 1)[0];
+  const Signal z = simulated(set, kSamples, 3);
+  const Batch batch(set, z);
+  KalmanBank bank(bare(), core::kMaxLag);
+  bank.use(single(set));
+  BankEstimates last;
+  for (const double sample : z) last = bank.step(sample);
+  EXPECT_NEAR(last.realtime.rate, batch.mean(kSamples - 1), 1e-8);
+  EXPECT_NEAR(last.realtime.variance, batch.variance(kSamples - 1), 1e-8);
+  EXPECT_NEAR(last.denoised.rate, batch.mean(kSamples - 1 - core::kMaxLag), 1e-8);
+  EXPECT_NEAR(last.denoised.variance, batch.variance(kSamples - 1 - core::kMaxLag), 1e-8);
 }
 
 // The mean is the members' zero: shifting both shifts the answer.

@@ -29,7 +29,7 @@ using testing::single;
 TEST(KalmanBank, TrustsTheMemberThatPredictsBest) {
   const BlockSet right = blocks();
   BlockSet wrong = right;
-  for (FilterBlock& block : wrong.blocks) block.drive *= block.signal ? 1e-2 : 1.0;
+  for (FilterBlock& block : wrong.blocks) block.drive *= block.signal > 0.0 ? 1e-2 : 1.0;
   JointModel model = single(wrong);
   ASSERT_TRUE(MemberDesigner().design(right, kBankNoise, model.member(MemberKind::kPruned)));
   KalmanBank bank(bare(), 16);
@@ -61,7 +61,7 @@ TEST_P(KalmanBankEvidence, WeighsByEvidenceAndByTheChanceOfASwitch) {
   options.most_evidence = GetParam();
   JointModel model;
   core::MemberModel& narrow = model.member(MemberKind::kFull);
-  narrow.blocks.add({.order = 1, .drive = 1.0, .signal = true});
+  narrow.blocks.add({.order = 1, .drive = 1.0, .signal = 1.0});
   narrow.states = 1;
   narrow.innovation_variance = kNarrow;
   narrow.prediction_variance = 1.0;

@@ -9,7 +9,7 @@ namespace {
 
 BlockSet one_block(double pole, double drive) {
   BlockSet set;
-  set.add({.order = 1, .a = {pole}, .drive = drive, .signal = true});
+  set.add({.order = 1, .a = {pole}, .drive = drive, .signal = 1.0});
   return set;
 }
 

@@ -1,5 +1,6 @@
 #include "core/joint/noise_peak.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -39,15 +40,48 @@ TEST(NoisePeak, SlowNoiseIsNotALine) {
   EXPECT_EQ(noise_peak(flicker).power, 0.0);
 }
 
-TEST(NoisePeak, MayBeAnywhereWithinAQuarterOfItsFrequencyAndTwiceAsStrong) {
+TEST(NoisePeak, KnowsItsSurroundings) {
+  const NoisePeak peak = noise_peak(with_line(0.2, 400.0));
+  EXPECT_EQ(peak.surroundings, 1.0);
+  EXPECT_NEAR(static_cast<double>(peak.first_bin), 0.15 * 2.0 * (kBins - 1), 1.0);
+  EXPECT_NEAR(static_cast<double>(peak.end_bin), 0.25 * 2.0 * (kBins - 1), 2.0);
+}
+
+TEST(NoisePeak, ReachesAQuarterOfItsFrequency) {
   const NoisePeak peak{.cycles = 0.2, .power = 3.0};
-  EXPECT_TRUE(peak.may_be(0.2, 3.0));
-  EXPECT_TRUE(peak.may_be(0.151, 0.1));
-  EXPECT_TRUE(peak.may_be(0.249, 5.9));
-  EXPECT_FALSE(peak.may_be(0.149, 1.0));
-  EXPECT_FALSE(peak.may_be(0.251, 1.0));
-  EXPECT_FALSE(peak.may_be(0.2, 6.1));
-  EXPECT_FALSE(NoisePeak{}.may_be(0.0, 0.0));
+  EXPECT_TRUE(peak.reaches(0.151));
+  EXPECT_TRUE(peak.reaches(0.249));
+  EXPECT_FALSE(peak.reaches(0.149));
+  EXPECT_FALSE(peak.reaches(0.251));
+  EXPECT_FALSE(NoisePeak{}.reaches(0.0));
+}
+
+/// What is motion of a broad mode of power 2 and a narrow one of power 3, beside a line of power 4, when so much is expected to be where it
+/// is believed to be: {broad, narrow}.
+std::array<double, 2> shares(double expected) {
+  SpectralMode broad{.drive = 2.0 * 0.8};
+  SpectralMode narrow{.drive = 3.0 * 0.01};
+  std::array<ModeNearLine, 2> modes{{{&broad, 2.0}, {&narrow, 3.0}}};
+  share_with_line(NoisePeak{.cycles = 0.2, .power = 4.0}, expected, modes);
+  return {broad.share, narrow.share};
+}
+
+// The line has 4, or 5 = 1.25 times 4 where that explains a mode; and the narrow mode is asked first.
+TEST(NoisePeak, WhatTheLineMayHaveElsewhereIsInTheNarrowestModes) {
+  EXPECT_EQ(shares(0.0), (std::array{0.0, 0.0}));  // 5 are missing: all of the modes
+  EXPECT_EQ(
+      shares(1.0),
+      (std::array{
+          1.0,
+          0.0}));  // 3 of 4: the narrow one, and nothing of a broad one that is twice the 1 that may be left
+  EXPECT_EQ(shares(5.0), (std::array{1.0, 1.0}));   // nothing
+  EXPECT_EQ(shares(50.0), (std::array{1.0, 1.0}));  // motion at the line's frequency
+  // 1.5 may be missing and 0.5 is; the narrow mode has twice that 1.5.
+  EXPECT_DOUBLE_EQ(shares(3.5)[1], 1.0 - 0.5 / 3.0);
+  EXPECT_EQ(shares(3.5)[0], 1.0);
+  // After the narrow mode 1.5 may be missing and 0.5 is; the broad one has 4/3 of 1.5: a third of the way from one to the other.
+  EXPECT_DOUBLE_EQ(shares(0.5)[0], 1.0 - (1.5 - 1.0 / 3.0) / 2.0);
+  EXPECT_EQ(shares(0.5)[1], 0.0);
 }
 
 }  // namespace

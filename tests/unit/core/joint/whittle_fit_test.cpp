@@ -101,6 +101,34 @@ TEST(WhittleFit, TheTruthIsAFixedPoint) {
   }
 }
 
+/// White noise of variance 1 and a line of variance 2 at 0.2 cycles per sample.
+NoiseModel noise_with_line() {
+  const SpectralMode line = oscillation(0.97, 2.0 * std::numbers::pi * 0.2, 1.0);
+  NoiseModel model = white_noise(1.0);
+  model.colour_order = 2;
+  model.colour = {line.a[0], line.a[1]};
+  model.colour_variance = 2.0 / variance_of(line);
+  return model;
+}
+
+// Where the periodogram is what the noise and the modes make together, the line is what it is believed to be; where it has left its place,
+// nearly nothing: there sum L - (L / M)^2 (M - 1) is left, with M = L + 1, and 0.18 of 2.
+TEST(WhittleFit, ExpectsTheLineWhereTheWindowHasIt) {
+  const ModeSet modes = set_of({oscillation(0.9, 1.3, 0.5), slow_mode(0.98, 0.1)});
+  WhittleFit fit(kTransform, 0.0);
+  fit.observe(Signal(kBins, 1.0), noise_with_line());
+  const NoisePeak peak = noise_peak(fit.noise());
+  ASSERT_NEAR(peak.power, 2.0, 0.4);
+  Signal whole(fit.noise().begin(), fit.noise().end());
+  for (std::size_t k = 0; k < kBins; ++k) {
+    for (const SpectralMode& mode : modes.modes()) whole[k] += spectrum_of(mode, radians(k));
+  }
+  fit.observe(whole, noise_with_line());
+  EXPECT_NEAR(fit.expected_line(modes, peak), peak.power, 1e-9);
+  fit.observe(Signal(kBins, 1.0), noise_with_line());
+  EXPECT_LT(fit.expected_line(set_of({}), peak), 0.15 * peak.power);
+}
+
 // Where the fit would stay, an iteration takes its share of the drive and no more; the slow mode pays nothing.
 TEST(WhittleFit, ShrinkageTakesItsShareOfAllButTheSlowMode) {
   const ModeSet truth = set_of({oscillation(0.95, 0.5, 0.3), slow_mode(0.98, 0.1)});
