@@ -73,6 +73,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   decompose(report);
   start_line(tone);
   whittle_.observe(periodogram_, noise_);
+  peak_ = is_usable(noise) ? noise_peak(whittle_.noise()) : NoisePeak{};
   whittle_.iterate(full_, options_.pruned_iterations);
   pruned_ = full_;
   whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
@@ -91,7 +92,6 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
 /// white, at the level of the quietest bands, or at what the other axes allow.
 void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, WindowReport& report) noexcept {
   const bool known = is_usable(believed);
-  peak_ = {};
   unit_ = known ? noise_variance(believed) : 1.0;
   noise_ = known ? scaled(believed, 1.0 / std::sqrt(unit_)) : white_noise(1.0);
   const double share = static_cast<double>(options_.hop_samples) / static_cast<double>(max_samples_);
@@ -100,7 +100,6 @@ void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, Wi
   tracker.observe(periodogram_, whittle_.noise(), known, share);
   if (known) {
     noise_ = scaled(noise_, std::sqrt(tracker.level()));
-    peak_ = noise_peak(whittle_.noise());
   } else {
     unit_ = std::min(tracker.floor(), most_noise_);
     if (is_usable(white_noise(unit_))) {

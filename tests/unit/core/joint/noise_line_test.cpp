@@ -66,6 +66,14 @@ TEST(JointWithANoiseLine, KeepsMotionThatIsStrongerOrElsewhere) {
   EXPECT_GT(left_of_noise_with_line_at(0.1, 1.5), 1.0);
 }
 
+// All of it a quarter stronger than believed, the line moved by a tenth: the windows show the level, and the line has grown with it. With the
+// line's power as believed 0.32 came through, now 0.11.
+TEST(JointWithANoiseLine, TakesItOffWhereAllIsLouderThanBelieved) {
+  const Signal noise = testing::sum(testing::white_noise(kSize, 1), line(0.22, kOfHalfThePower, 2), 1.0);
+  const auto out = testing::run_joint(testing::times(noise, 1.25), noise_with_line(), kLag);
+  EXPECT_LT(testing::rms_difference(out.denoised, Signal(kSize, 0.0), kBegin, kSize - kLag), 0.2);
+}
+
 /// Error of motion that shakes broadly about the line's frequency, with so much of its power, in noise that has the line at `cycles`.
 double error_of_shaking(double power, double cycles) {
   const auto block = testing::oscillation(0.9, 2.0 * std::numbers::pi * 0.2, 1.0);
