@@ -74,6 +74,8 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   start_line(tone);
   whittle_.observe(periodogram_, noise_);
   peak_ = is_usable(noise) ? noise_peak(whittle_.noise()) : NoisePeak{};
+  // Quieter windows do not make the line weaker than it is believed to be: it may be all that is as loud as ever.
+  peak_.power /= std::min(model.noise.level(), 1.0);
   whittle_.iterate(full_, options_.pruned_iterations);
   pruned_ = full_;
   whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);

@@ -17,7 +17,7 @@ struct NoisePeak {
   static constexpr double kReach = 0.25;
   /// The line is at most this many times as strong as believed, in a window that is too short to tell. From the same place: at 1.0 some of
   /// it is kept as motion, at 2 motion is lost where a road shakes at its frequency.
-  static constexpr double kMostPower = 1.35;
+  static constexpr double kMostPower = 1.25;
 
   double cycles = 0.0;        ///< its frequency, cycles per sample
   double power = 0.0;         ///< variance of what stands above the spectrum around it

@@ -74,6 +74,15 @@ TEST(JointWithANoiseLine, TakesItOffWhereAllIsLouderThanBelieved) {
   EXPECT_LT(testing::rms_difference(out.denoised, Signal(kSize, 0.0), kBegin, kSize - kLag), 0.2);
 }
 
+// The white noise is quieter than believed, the line is not, and has moved by a tenth. With the line as much weaker as the level says 0.37 came
+// through, now 0.10.
+TEST(JointWithANoiseLine, TakesItOffWhereOnlyTheRestIsQuieter) {
+  const Signal noise =
+      testing::sum(testing::times(testing::white_noise(kSize, 1), 0.7), line(0.22, kOfHalfThePower, 2), 1.0);
+  const auto out = testing::run_joint(noise, noise_with_line(), kLag);
+  EXPECT_LT(testing::rms_difference(out.denoised, Signal(kSize, 0.0), kBegin, kSize - kLag), 0.2);
+}
+
 /// Error of motion that shakes broadly about the line's frequency, with so much of its power, in noise that has the line at `cycles`.
 double error_of_shaking(double power, double cycles) {
   const auto block = testing::oscillation(0.9, 2.0 * std::numbers::pi * 0.2, 1.0);

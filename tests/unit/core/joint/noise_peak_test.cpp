@@ -72,18 +72,17 @@ void expect_shares(double expected, double broad, double narrow) {
   EXPECT_NEAR(its_narrow, narrow, 1e-12) << expected;
 }
 
-// The line has 4, or up to 5.4 = 1.35 times 4 where that explains a mode; and the narrow mode is asked first.
+// The line has 4, or up to 5 = 1.25 times 4 where that explains a mode; and the narrow mode is asked first.
 TEST(NoisePeak, WhatTheLineMayHaveElsewhereIsInTheNarrowestModes) {
-  expect_shares(0.0, 0.0, 0.0);  // 5.4 may be missing: all of the modes
-  expect_shares(
-      1.4, 1.0,
-      0.0);  // 4: the narrow one; of the 1 that may be left the broad one is twice as much, and nothing is missing
-  expect_shares(5.4, 1.0, 1.0);   // nothing
+  expect_shares(0.0, 0.0, 0.0);  // 5 may be missing: all of the modes
+  // 4 may be: the narrow one; of the 1 that is left then the broad one is twice as much, and nothing is missing.
+  expect_shares(1.0, 1.0, 0.0);
+  expect_shares(5.0, 1.0, 1.0);   // nothing
   expect_shares(50.0, 1.0, 1.0);  // motion at the line's frequency
-  // After the narrow mode 1.5 may be missing and 0.1 is; the broad one has 4/3 of 1.5: a third of the way from one to the other.
-  expect_shares(0.9, 1.0 - (1.5 - 1.4 / 3.0) / 2.0, 0.0);
-  // 1.5 may be missing and 0.1 is: that, as the narrow mode is twice as much. Then 1.4 may be: the broad one has 10/7 of it.
-  expect_shares(3.9, 1.0 - 1.4 * 4.0 / 7.0 / 2.0, 1.0 - 0.1 / 3.0);
+  // After the narrow mode 1.5 may be missing and 0.5 is; the broad one has 4/3 of 1.5: a third of the way from one to the other.
+  expect_shares(0.5, 1.0 - (1.5 - 1.0 / 3.0) / 2.0, 0.0);
+  // 1.5 may be missing and 0.5 is: that, as the narrow mode is twice as much. Of the 1 that is left then the broad one is twice as much.
+  expect_shares(3.5, 1.0, 1.0 - 0.5 / 3.0);
 }
 
 }  // namespace
