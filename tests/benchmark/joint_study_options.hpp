@@ -49,6 +49,12 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("most_evidence", options.most_evidence);
   set("hand_over_samples", options.hand_over_samples);
   set("correction_rate", options.correction_rate);
+  set("still_correction", options.still_correction);
+  set("motion_mean", options.motion_mean);
+  set("motion_memory", options.motion_memory);
+  set("motion_low", options.motion_low);
+  set("motion_high", options.motion_high);
+  set("motion_sure", options.motion_sure);
   set("correction_share", options.correction_share);
   set("steady_correction", options.steady_correction);
   set("most_steady_correction", options.most_steady_correction);

@@ -59,7 +59,8 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
   const double noise = model_.noise_variance * unit_;
   const Trust trust = noise > 0.0 ? Trust{.now = answer.variance / noise,
                                           .expected = expected_variance(lag) / noise,
-                                          .settled = expected_variance(kMaxLag) / noise}
+                                          .settled = expected_variance(kMaxLag) / noise,
+                                          .moving = moving_}
                                   : Trust{};
   answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_, options_);
   std::array<double, kMaxLag> newer{};

@@ -78,6 +78,16 @@ struct JointOptions {
   double hand_over_memory = 0.8;
   /// Rate of the slow correction, per sample: it takes what the models miss of slow motion. Range 0..1.
   double correction_rate = 0.006;
+  /// What is left of that rate where the samples show nothing slow but noise, in parts of it. Range 0..1.
+  double still_correction = 0.15;
+  /// Samples: of the mean that slow motion is told from, and of what is learned about it. Range 1..1e9.
+  double motion_mean = 1024.0;
+  double motion_memory = 600.0;
+  /// The square of slow motion, in parts of what white noise makes of it: nothing moves up to motion_low in the mean, something does from motion_high on,
+  /// or from motion_sure times as much at once. Range 0..50, the second above the first; 1..1e6.
+  double motion_low = 2.5;
+  double motion_high = 6.5;
+  double motion_sure = 9.0;
   /// The same where the estimate trusts the samples: at least this much of the estimate's variance over the noise's. Range 0..1.
   double correction_share = 0.04;
   /// The same where the estimate has trusted the samples for long, as on a road that shakes: this much of the cube of the least ratio of

@@ -61,6 +61,8 @@ void KalmanBank::reset() noexcept {
   unit_ = 0.0;
   members_ = {};
   residuals_ = {};
+  motion_ = {};
+  moving_ = 1.0;
   realtime_correction_ = {};
   denoised_correction_ = {};
   normalised_innovation_ = 1.0;
@@ -131,6 +133,7 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   weigh(surprise);
   if (fitted_ && weights > 0.0)
     normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
+  moving_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
   BankEstimates answer;
   answer.realtime = combine(0);
   correct(sample, 0, realtime_correction_, answer.realtime);

@@ -12,6 +12,7 @@
 #include "core/joint/joint_options.hpp"
 #include "core/joint/residual_check.hpp"
 #include "core/joint/slow_correction.hpp"
+#include "core/joint/slow_motion.hpp"
 
 namespace gyrod::core {
 
@@ -107,6 +108,8 @@ class KalmanBank {
   /// P_L of every member at lag 0 and at lag_.
   std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
   std::array<double, kRing> residuals_{};  ///< of the estimates at lag 0, by time
+  SlowMotion motion_;
+  double moving_ = 1.0;  ///< what it said of the newest sample
   Correction realtime_correction_;
   Correction denoised_correction_;
   double normalised_innovation_ = 1.0;

@@ -1,6 +1,7 @@
 #include "core/joint/slow_correction.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gyrod::core {
 namespace {
@@ -15,7 +16,8 @@ constexpr double kMostRatio = 1e6;
 double SlowCorrection::apply(double sample, double estimate, const Trust& trust, const JointOptions& options,
                              const JointScale& scale, std::span<const double> newer) noexcept {
   const double now = std::min(trust.now, kMostRatio);
-  const double rate = std::max({scale.correction_rate(options.correction_rate),
+  const double rate = std::max({scale.correction_rate(options.correction_rate) *
+                                    std::lerp(options.still_correction, 1.0, trust.moving),
                                 std::min(options.correction_share * now, kMostCorrection),
                                 steady_rate(trust, options, scale, !newer.empty())});
   const double kept = std::max(1.0 - options.residual_decay * rate, 0.0);

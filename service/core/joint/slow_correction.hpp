@@ -7,16 +7,17 @@
 
 namespace gyrod::core {
 
-/// How much an estimate rests on the samples: variances of its error over the noise's, at least 0; may be infinite.
+/// How much an estimate rests on the samples: variances of its error over the noise's, at least 0; may be infinite. And what else is known.
 struct Trust {
   double now = 0.0;       ///< P, with what the members differ by
   double expected = 0.0;  ///< P as the members expect it
   double settled = 0.0;   ///< the same with the largest look-ahead there is
+  double moving = 1.0;    ///< whether anything slow moves, 0 .. 1 (slow_motion.hpp)
 };
 
 /// Of one output. It makes of an estimate e and the sample z that it is of the answer
 ///   out = e + c (owed + z - e + residual_weight sum_k (1 - residual_decay c)^k d_k),   owed <- owed + z - out,
-///   c = max(correction_rate, correction_share now, min(steady_correction s^3 b, most_steady_correction)),
+///   c = max(correction_rate (still_correction + (1 - still_correction) moving), correction_share now, min(steady_correction s^3 b, most_steady_correction)),
 ///   s <- min(settled, s + (settled - s) / steady_memory),   b = settled / expected max(1, now / expected),
 /// with the rate and the memory at the model's scale, and d_k the residual k samples later, as far as the answer waits for it: what no
 /// model expects still arrives, hardly late, and the sum of the answers stays with that of the samples. With look-ahead the last rate is

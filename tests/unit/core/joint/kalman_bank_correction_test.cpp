@@ -30,6 +30,7 @@ constexpr double kShare = 10.0;
 JointOptions correcting() {
   JointOptions options = bare();
   options.correction_rate = 0.006;
+  options.still_correction = 1.0;
   options.correction_share = 0.04;
   options.steady_correction = kShare;
   options.most_steady_correction = 0.04;
@@ -105,6 +106,63 @@ TEST(KalmanBankCorrection, ForgetsAtOnceThatTheVarianceWasLarge) {
   rates.use(moving(0.001));
   const double rate = rates.step(z[300]);
   EXPECT_NEAR(rate, rates.rate_at(rates.settled()), 1e-9);
+}
+
+// Both outputs are told what the newest sample shows: an answer with look-ahead knows of a turn before it comes to it.
+TEST(KalmanBankCorrection, KnowsWhereNothingSlowMoves) {
+  constexpr std::size_t kLookAhead = 8;
+  JointOptions options = bare();
+  options.correction_rate = 0.006;
+  options.residual_weight = 0.0;
+  JointModel model = single(blocks());
+  model.noise_variance = kBankNoise;
+  KalmanBank plain(bare(), kLookAhead);
+  KalmanBank bank(options, kLookAhead);
+  plain.use(model);
+  bank.use(model);
+  core::SlowMotion motion;
+  Signal z = testing::times(testing::white_noise(4000, 4), std::sqrt(kBankNoise));
+  for (std::size_t t = 3500; t < z.size(); ++t) z[t] += 5.0;
+  double realtime_owed = 0.0;
+  double denoised_owed = 0.0;
+  double least = 1.0;
+  double last = 0.0;
+  for (std::size_t t = 0; t < z.size(); ++t) {
+    const core::BankEstimates e = plain.step(z[t]);
+    const core::BankEstimates out = bank.step(z[t]);
+    const double moving = motion.follow(z[t], kBankNoise, options, {});
+    const double rate = 0.006 * (options.still_correction + (1.0 - options.still_correction) * moving);
+    ASSERT_NEAR(out.realtime.rate, e.realtime.rate + rate * (realtime_owed + z[t] - e.realtime.rate), 1e-9)
+        << t;
+    realtime_owed += z[t] - out.realtime.rate;
+    least = std::min(least, moving);
+    last = moving;
+    if (t < kLookAhead) continue;
+    const double then = z[t - kLookAhead];
+    ASSERT_NEAR(out.denoised.rate, e.denoised.rate + rate * (denoised_owed + then - e.denoised.rate), 1e-9)
+        << t;
+    denoised_owed += then - out.denoised.rate;
+  }
+  EXPECT_EQ(least, 0.0);
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(KalmanBankCorrection, AResetForgetsThatNothingMoved) {
+  JointOptions options = bare();
+  options.correction_rate = 0.006;
+  JointModel model = single(blocks());
+  model.noise_variance = kBankNoise;
+  KalmanBank bank(options, 0);
+  bank.use(model);
+  const Signal z = testing::times(testing::white_noise(4000, 4), std::sqrt(kBankNoise));
+  for (const double sample : z) bank.step(sample);
+  bank.reset();
+  bank.use(model);
+  KalmanBank fresh(options, 0);
+  fresh.use(model);
+  for (std::size_t t = 0; t < 200; ++t) {
+    ASSERT_EQ(bank.step(z[t]).realtime.rate, fresh.step(z[t]).realtime.rate) << t;
+  }
 }
 
 // What has been left of the samples since, by the answers at once.

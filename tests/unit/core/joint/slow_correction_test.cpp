@@ -78,6 +78,17 @@ TEST(SlowCorrection, IsEarlierWhereItLooksAhead) {
   EXPECT_LE(earlier, static_cast<double>(kAhead));
 }
 
+// From c where all moves down to the part that is left of it where nothing does.
+TEST(SlowCorrection, IsSlowerWhereNothingSlowMoves) {
+  JointOptions options = at_one_rate();
+  options.still_correction = 0.2;
+  for (const double moving : {0.0, 0.25, 1.0}) {
+    SlowCorrection correction;
+    const double paid = correction.apply(1.0, 0.0, Trust{.moving = moving}, options, JointScale{});
+    EXPECT_NEAR(paid, kCorrection * (0.2 + 0.8 * moving), 1e-15) << moving;
+  }
+}
+
 // What is paid early is paid once: in the end the answers have the samples' sum.
 TEST(SlowCorrection, KeepsTheSumOfTheSamples) {
   SlowCorrection correction;

@@ -1,0 +1,34 @@
+/// Whether anything slow moves. Internal to core/joint.
+#pragma once
+
+#include "core/joint/joint_options.hpp"
+
+namespace gyrod::core {
+
+/// Compares what is slow in the samples with what noise makes of it:
+///   f <- f + a (z - f),   g <- g + b (z - g),   d = f - g,   a = correction_rate,   b = 1 / motion_mean,
+///   E = R (a - b)^2 / (2 (a + b)),   m <- m + (min(d^2 / E, 50) - m) / motion_memory,   m = 50 at the start,
+///   moving = (max(m, d^2 / (motion_sure E)) - motion_low) / (motion_high - motion_low), between 0 and 1,
+/// with times at the model's scale. E is the variance of d where the samples are white noise of variance R; real noise, which is stronger where it is
+/// slow, has up to 1.5 times as much. A turn is seen at once, and forgotten within 20 s of
+/// where d is small again.
+/// A plain value; finite for finite arguments.
+class SlowMotion {
+ public:
+  /// Takes z.
+  /// @param noise_variance R, at least 0
+  /// @return moving: 0 where nothing slow is seen but noise, 1 where there is, or where not enough is known
+  [[nodiscard]] double follow(double sample, double noise_variance, const JointOptions& options,
+                              const JointScale& scale) noexcept;
+
+ private:
+  /// Beyond this it does not matter how much it is.
+  static constexpr double kMostRatio = 50.0;
+
+  double fast_ = 0.0;          ///< f
+  double slow_ = 0.0;          ///< g
+  double ratio_ = kMostRatio;  ///< m
+  bool begun_ = false;
+};
+
+}  // namespace gyrod::core
