@@ -10,8 +10,8 @@ namespace gyrod::core {
 ///   E = R (a - b)^2 / (2 (a + b)),   m <- m + (min(d^2 / E, 50) - m) / motion_memory,   m = 50 at the start,
 ///   moving = (max(m, d^2 / (motion_sure E)) - motion_low) / (motion_high - motion_low), between 0 and 1,
 /// with times at the model's scale. E is the variance of d where the samples are white noise of variance R; real noise, which is stronger where it is
-/// slow, has up to 1.5 times as much. A turn is seen at once, and forgotten within 20 s of
-/// where d is small again.
+/// slow, has up to 1.5 times as much. A turn is seen at once, and forgotten within 20 s after
+/// d has become small again.
 /// A plain value; finite for finite arguments.
 class SlowMotion {
  public:

@@ -68,6 +68,21 @@ struct Batch {
   Eigen::VectorXd variance;
 };
 
+/// What the bank answers to the last sample of z.
+BankEstimates run_over(KalmanBank& bank, const BlockSet& set, const Signal& z) {
+  bank.use(single(set));
+  BankEstimates last;
+  for (const double sample : z) last = bank.step(sample);
+  return last;
+}
+
+void expect_last_answers_of(const Batch& batch, const BankEstimates& last) {
+  EXPECT_NEAR(last.realtime.rate, batch.mean(kSamples - 1), 1e-8);
+  EXPECT_NEAR(last.realtime.variance, batch.variance(kSamples - 1), 1e-8);
+  EXPECT_NEAR(last.denoised.rate, batch.mean(kSamples - 1 - core::kMaxLag), 1e-8);
+  EXPECT_NEAR(last.denoised.variance, batch.variance(kSamples - 1 - core::kMaxLag), 1e-8);
+}
+
 // After 200 samples nothing is left of the start (the closed loop's slowest pole is at 0.75), and the steady-state filter is the
 // conditional mean. 1e-8: conditioning of 200 x 200 covariances.
 TEST(KalmanBank, EqualsTheConditionalMeanOfTheWholeRecord) {
@@ -75,13 +90,7 @@ TEST(KalmanBank, EqualsTheConditionalMeanOfTheWholeRecord) {
   const Signal z = simulated(set, kSamples, 1);
   const Batch batch(set, z);
   KalmanBank bank(bare(), core::kMaxLag);
-  bank.use(single(set));
-  BankEstimates last;
-  for (const double sample : z) last = bank.step(sample);
-  EXPECT_NEAR(last.realtime.rate, batch.mean(kSamples - 1), 1e-8);
-  EXPECT_NEAR(last.realtime.variance, batch.variance(kSamples - 1), 1e-8);
-  EXPECT_NEAR(last.denoised.rate, batch.mean(kSamples - 1 - core::kMaxLag), 1e-8);
-  EXPECT_NEAR(last.denoised.variance, batch.variance(kSamples - 1 - core::kMaxLag), 1e-8);
+  expect_last_answers_of(batch, run_over(bank, set, z));
   for (std::size_t age = 0; age <= core::kMaxLag; ++age) {
     const auto then = static_cast<Eigen::Index>(kSamples - 1 - age);
     EXPECT_NEAR(bank.held(age).rate, batch.mean(then), 1e-8) << age;
@@ -98,13 +107,7 @@ TEST(KalmanBank, GivesOfASharedProcessTheSignalsPart) {
   const Signal z = simulated(set, kSamples, 3);
   const Batch batch(set, z);
   KalmanBank bank(bare(), core::kMaxLag);
-  bank.use(single(set));
-  BankEstimates last;
-  for (const double sample : z) last = bank.step(sample);
-  EXPECT_NEAR(last.realtime.rate, batch.mean(kSamples - 1), 1e-8);
-  EXPECT_NEAR(last.realtime.variance, batch.variance(kSamples - 1), 1e-8);
-  EXPECT_NEAR(last.denoised.rate, batch.mean(kSamples - 1 - core::kMaxLag), 1e-8);
-  EXPECT_NEAR(last.denoised.variance, batch.variance(kSamples - 1 - core::kMaxLag), 1e-8);
+  expect_last_answers_of(batch, run_over(bank, set, z));
 }
 
 // The mean is the members' zero: shifting both shifts the answer.
