@@ -57,9 +57,8 @@ Engine::Impl::Impl(EngineOptions options, MethodFactory method, Sink& sink, Cloc
       registry_(options_.max_channels) {
   for (std::size_t i = 0; i <= options_.workers; ++i)
     benches_.push_back(std::make_unique<Workbench>(options_, method_));
-  constexpr std::size_t kOutboxSamples = 64;
-  outbox_.reserve(kOutboxSamples);
-  realtime_outbox_.reserve(kOutboxSamples);
+  outbox_.reserve(kMaxModelReleaseSamples);
+  realtime_outbox_.reserve(kMaxModelReleaseSamples);
   if (options_.workers == 0) return;
   scheduler_.emplace(options_.workers, options_.max_channels, [this](std::size_t worker, Channel& channel) {
     work(channel, *benches_[worker], true);

@@ -28,6 +28,7 @@ class Sink {
  public:
   virtual ~Sink() = default;
   /// @param sensor valid during the call
+  /// @param samples of a window method a hop's, of a model method what push() has made so far, at most kMaxModelReleaseSamples
   virtual void on_samples(std::string_view sensor, std::span<const DenoisedSample> samples) noexcept = 0;
   /// Model methods only: what the newest samples are taken for without look-ahead, one for each sample accepted, in order. From the
   /// caller of Engine, before push() returns and before it waits for workers. The same samples come again by on_samples(), `lag` later.

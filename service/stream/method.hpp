@@ -66,6 +66,9 @@ class Model {
 /// Longest lag of a model method, samples: its filters carry as many past states along.
 inline constexpr std::size_t kMaxModelLagSamples = 32;
 
+/// Most samples of a model method that leave together, in one call of Sink: what a longer run of input makes, leaves in parts.
+inline constexpr std::size_t kMaxModelReleaseSamples = 64;
+
 /// An estimate of the true rate and of its error's variance.
 struct Estimate {
   double rate = 0.0;      ///< rad/s

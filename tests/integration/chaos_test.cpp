@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "standby_pair.hpp"
+#include "stream/method.hpp"
 #include "support/arrivals.hpp"
 #include "support/eventually.hpp"
 
@@ -174,8 +175,9 @@ class ChaosAlone : public Chaos {
   static std::size_t allowed(Blow blow, const Sensor& sensor) {
     if (blow == Blow::kPause || blow == Blow::kStop) return 0;
     constexpr std::size_t kHop = 32;
-    return std::max<std::size_t>(static_cast<std::size_t>(sensor.batch),
-                                 std::string_view(GetParam()) == "paper" ? kHop : 1);
+    return std::max<std::size_t>(
+        static_cast<std::size_t>(sensor.batch),
+        std::string_view(GetParam()) == "paper" ? kHop : stream::kMaxModelReleaseSamples);
   }
 
   std::unique_ptr<Process> daemon_;

@@ -19,6 +19,7 @@ class RecordingSink : public stream::Sink {
     const std::lock_guard lock(mutex_);
     auto& all = samples_[std::string{sensor}];
     all.insert(all.end(), samples.begin(), samples.end());
+    calls_.push_back(samples.size());
   }
   void on_realtime(std::string_view sensor,
                    std::span<const stream::DenoisedSample> samples) noexcept override {
@@ -51,6 +52,11 @@ class RecordingSink : public stream::Sink {
     const auto found = realtime_.find(sensor);
     return found == realtime_.end() ? std::vector<stream::DenoisedSample>{} : found->second;
   }
+  /// Samples of each call of on_samples(), any sensor.
+  [[nodiscard]] std::vector<std::size_t> calls() const {
+    const std::lock_guard lock(mutex_);
+    return calls_;
+  }
   /// Samples of each call of on_realtime(), any sensor.
   [[nodiscard]] std::vector<std::size_t> realtime_calls() const {
     const std::lock_guard lock(mutex_);
@@ -66,6 +72,7 @@ class RecordingSink : public stream::Sink {
   mutable std::mutex mutex_;
   std::map<std::string, std::vector<stream::DenoisedSample>> samples_;
   std::map<std::string, std::vector<stream::DenoisedSample>> realtime_;
+  std::vector<std::size_t> calls_;
   std::vector<std::size_t> realtime_calls_;
   std::map<std::string, std::vector<stream::NoiseReport>> reports_;
   std::map<std::string, std::vector<std::size_t>> ended_after_;

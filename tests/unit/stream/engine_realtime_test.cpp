@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -40,6 +41,19 @@ TEST(EngineInRealTime, AnswersABatchAsABatch) {
   std::vector<std::size_t> expected(30, 1);
   expected.push_back(30);
   EXPECT_EQ(sink.realtime_calls(), expected);
+}
+
+// Who keeps note of what has left keeps it a release at a time: a killed daemon's next one repeats no more than one.
+TEST(EngineInRealTime, LetsALongRunLeaveInPartsOfBoundedLength) {
+  RecordingSink sink;
+  Engine engine(small_options(), testing::last_sample_method(), sink);
+  engine.push("imu", counting_samples(1000));
+  engine.end_of_stream("imu");
+  ASSERT_EQ(sink.samples("imu").size(), 1000U);
+  for (const auto& calls : {sink.calls(), sink.realtime_calls()}) {
+    EXPECT_EQ(*std::ranges::max_element(calls), kMaxModelReleaseSamples);
+    EXPECT_LT(calls.size(), 40U) << "not one by one";
+  }
 }
 
 TEST(EngineInRealTime, StaysSilentForAWindowMethod) {
