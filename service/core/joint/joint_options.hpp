@@ -53,12 +53,12 @@ struct JointOptions {
   double level_pole = 0.9999;
   double slope_pole = 0.97;
   /// Variance of what drives an agile member's extra block, in parts of the full member's innovation variance. Range 0..10.
-  double agile_drive = 0.02;
+  double agile_drive = 0.01;
   /// The rough and the calm member: the full set with all modes but the slow one driven by this many times the variance, and by its
   /// inverse; the still one by the square of its inverse. Range 1..1000.
   double drive_ratio = 4.0;
   /// Logarithm of the prior weight of an agile member, of the rough and the calm one, and of the still one. Range -100..0.
-  double agile_log_prior = -3.0;
+  double agile_log_prior = -2.0;
   double drive_log_prior = -1.0;
   double still_log_prior = -0.5;
   /// Probability that another member than before answers best from the next sample on. Range 0..1.
