@@ -1,5 +1,4 @@
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 
 #include "app/exit_code.hpp"
 #include "rig.hpp"
+#include "support/data_folder.hpp"
 #include "support/slow_build.hpp"
 
 namespace gyrod::testing {
@@ -179,11 +179,7 @@ std::string first_rows(const std::filesystem::path& file, std::size_t rows) {
 }
 
 TEST_F(LiveEqualsOffline, OnARealGyroThatLearnsItsNoise) {
-  const char* variable = std::getenv("GYROD_DATA");
-  const std::filesystem::path data =
-      variable != nullptr ? variable
-                          : std::filesystem::path(std::getenv("GYROD_SOURCE_DIR")) / "../shared/data";
-  const auto file = data / "adis16405_imu1_static_100hz.csv.gz";
+  const auto file = test::data_folder() / "adis16405_imu1_static_100hz.csv.gz";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real recording: " << file << " (set GYROD_DATA)";
   write_file("real.csv", first_rows(file, kSlowBuild ? 3000 : 20000));
   expect_same("real.csv", "dps");

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <numbers>
@@ -17,6 +16,7 @@
 
 #include "core/signal/interpolation.hpp"
 #include "files/record.hpp"
+#include "support/data_folder.hpp"
 
 namespace gyrod::test {
 
@@ -36,12 +36,6 @@ struct DriveRow {
       noisy_dps;  ///< finite: the truth, lost stretches bridged by straight lines, plus the noise
   std::vector<double> still_dps;  ///< another stretch of the same noise at the same scale, its mean removed
 };
-
-inline std::filesystem::path data_folder() {
-  if (const char* data = std::getenv("GYROD_DATA")) return data;
-  const char* source = std::getenv("GYROD_SOURCE_DIR");
-  return std::filesystem::path(source != nullptr ? source : ".") / "../shared/data";
-}
 
 /// Which still recording is the noise, and where it starts.
 struct NoiseChoice {

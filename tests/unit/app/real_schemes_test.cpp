@@ -1,7 +1,6 @@
 /// The paper's comparison on real still records, the first hour of the ADIS16405 recordings in GYROD_DATA (default: ../shared/data
 /// beside the project), skipped where they are absent.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 #include "core/denoise/record_analysis.hpp"
 #include "core/signal/moments.hpp"
 #include "files/record.hpp"
+#include "support/data_folder.hpp"
 
 namespace gyrod {
 namespace {
@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 using core::Scheme;
 
 constexpr std::size_t kHour = 360'000;
-
-fs::path data_folder() {
-  if (const char* data = std::getenv("GYROD_DATA")) return data;
-  const char* source = std::getenv("GYROD_SOURCE_DIR");
-  return fs::path(source != nullptr ? source : ".") / "../shared/data";
-}
 
 /// Overlapping Allan deviation over m samples, from the summed-up series (IEEE 952, annex C).
 double allan_deviation(std::span<const double> x, std::size_t m) {
@@ -45,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Adis16405, RealSchemes, ::testing::Values("imu1", "imu2
 // At 10 s the scheme direct is the best, which halves all that is random, and improved no better than raw: it keeps what is slower
 // than 8 s, as the paper's ACF boundary says. docs/method.md, Schemes, has the table.
 TEST_P(RealSchemes, ImprovedIsTheBestOfThePapersUpToOneSecond) {
-  const auto path = data_folder() / (std::string("adis16405_") + GetParam() + "_static_100hz.csv.gz");
+  const auto path = test::data_folder() / (std::string("adis16405_") + GetParam() + "_static_100hz.csv.gz");
   if (!fs::exists(path)) GTEST_SKIP() << "no recording " << path;
   files::RecordOptions options;
   options.sample_rate_hz = 100.0;

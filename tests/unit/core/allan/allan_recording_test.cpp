@@ -12,6 +12,7 @@
 #include <zlib.h>
 
 #include "allan_support.hpp"
+#include "support/data_folder.hpp"
 
 namespace gyrod {
 namespace {
@@ -20,12 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kChannels = 6;
 using Channels = std::array<std::vector<double>, kChannels>;
-
-fs::path data_folder() {
-  if (const char* data = std::getenv("GYROD_DATA")) return data;
-  const char* source = std::getenv("GYROD_SOURCE_DIR");
-  return fs::path(source != nullptr ? source : ".") / "../shared/data";
-}
 
 /// Columns 1..6 of rows "sample,gyro x,y,z,accelerometer x,y,z".
 Channels read_channels(const fs::path& path) {
@@ -71,8 +66,8 @@ std::map<std::string, std::vector<Published>> read_published(const fs::path& pat
 // Published with 12 digits by SMAC-Group/avar; made from a copy of the data with more digits than ours, which sets
 // the 5e-6 (stated with the file).
 TEST(AllanOfARealGyro, AgreesWithThePublishedCurveOfAllSixChannels) {
-  const fs::path recording = data_folder() / "adis16405_imu1_static_100hz.csv.gz";
-  const fs::path answer = data_folder() / "known_answer_adis16405_imu1_oadev.csv";
+  const fs::path recording = test::data_folder() / "adis16405_imu1_static_100hz.csv.gz";
+  const fs::path answer = test::data_folder() / "known_answer_adis16405_imu1_oadev.csv";
   if (!fs::exists(recording) || !fs::exists(answer)) GTEST_SKIP() << "no recording " << recording;
   const Channels channels = read_channels(recording);
   auto published = read_published(answer);

@@ -1,6 +1,5 @@
 // Rest and motion of real sensors. The recordings are not part of the project; skipped where they are absent.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,21 +8,16 @@
 
 #include "core/noise/standstill_learner.hpp"
 #include "files/record.hpp"
+#include "support/data_folder.hpp"
 
 namespace gyrod::core {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path data_folder() {
-  if (const char* data = std::getenv("GYROD_DATA")) return data;
-  const char* source = std::getenv("GYROD_SOURCE_DIR");
-  return fs::path(source != nullptr ? source : ".") / "../shared/data";
-}
-
 /// Share of the recording that is taken for rest. @return nothing where there is no such recording
 std::optional<double> share_at_rest(const std::string& name, StandstillLearner& learner) {
-  const fs::path path = data_folder() / name;
+  const fs::path path = test::data_folder() / name;
   if (!fs::exists(path)) return std::nullopt;
   files::RecordOptions options;
   options.sample_rate_hz = learner.state().sample_rate_hz;
@@ -39,7 +33,7 @@ std::optional<double> share_at_rest(const std::string& name, StandstillLearner& 
 TEST(RestOfRecordings, AStillSensorIsFoundAtRestNearlyAlways) {
   StandstillLearner learner(100.0);
   const auto share = share_at_rest("adis16405_imu4_static_100hz.csv.gz", learner);
-  if (!share) GTEST_SKIP() << "no recordings in " << data_folder();
+  if (!share) GTEST_SKIP() << "no recordings in " << test::data_folder();
   EXPECT_GT(*share, 0.99) << "with its shocks";
   // The data folder's README: 0.350, 0.370, 0.432 deg/s for run 1 of this sensor; run 4 is another piece of it.
   constexpr double kDegPerRad = 57.29577951308232;
@@ -54,7 +48,7 @@ TEST(RestOfRecordings, ACarIsNotAtRestWhileItsEngineRuns) {
                                    std::pair("wid_car_trial09_xsensdot_120hz.csv.gz", 120.0)}) {
     StandstillLearner learner(rate);
     const auto share = share_at_rest(name, learner);
-    if (!share) GTEST_SKIP() << "no recordings in " << data_folder();
+    if (!share) GTEST_SKIP() << "no recordings in " << test::data_folder();
     EXPECT_EQ(*share, 0.0) << name;
     EXPECT_EQ(learner.revision(), 0U) << name;
   }

@@ -1,0 +1,161 @@
+/// The two-speed estimator on real drives in real noise, against what must hold of it (docs/method.md, "Measured"). Skipped where
+/// GYROD_DATA is absent.
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <ostream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/joint_drive.hpp"
+
+namespace gyrod::core {
+namespace {
+
+test::NoiseChoice noise_of(int imu, char axis, std::size_t start) {
+  test::NoiseChoice noise;
+  noise.file = "adis16405_imu" + std::to_string(imu) + "_static_100hz.csv.gz";
+  noise.axis = static_cast<std::size_t>(axis - 'x');
+  noise.start = start;
+  return noise;
+}
+
+NoiseModel calibrated(const test::DriveRow& row) {
+  return scaled(still_noise(row.still_dps).value(), kNoiseMargin);
+}
+
+struct Scored {
+  std::vector<test::DriveRow> rows;
+  std::vector<test::JointFigures> figures;  ///< with calibrated noise
+};
+
+/// Rows are read, and scored, once.
+const Scored& scored(const test::NoiseChoice& noise) {
+  static std::map<std::tuple<std::string, std::size_t, std::size_t>, Scored> known;
+  Scored& result = known[{noise.file, noise.axis, noise.start}];
+  if (!result.rows.empty()) return result;
+  result.rows = test::drive_rows(noise);
+  for (const test::DriveRow& row : result.rows)
+    result.figures.push_back(test::joint_figures(row, calibrated(row), {}));
+  return result;
+}
+
+/// A level that is wrong, and no colour.
+NoiseModel believed_white(const test::DriveRow& row, double level) {
+  return scaled(white_noise(noise_variance(still_noise(row.still_dps).value())), level);
+}
+
+struct Setting {
+  const char* name;
+  test::NoiseChoice noise;
+  /// RMSE of every cell, in parts of the tuned Butterworth's. 1: ahead. Above 1: what the design allows, or what docs/method.md says
+  /// is not reached, rounded up to a whole per cent.
+  double most = 1.0;
+  double white_level = 0.0;  ///< 0: calibrated; else believed white, at this part of its level
+  double rate_hz = 120.0;
+  std::size_t window = 1024;
+  std::string axes = "xyz";
+
+  /// From what scored() has.
+  [[nodiscard]] bool differs() const { return white_level > 0.0 || rate_hz != 120.0 || window != 1024; }
+};
+
+std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
+
+class JointDrives : public testing::TestWithParam<Setting> {};
+
+TEST_P(JointDrives, AreAheadOfTheButterworthTunedOnTheirTruth) {
+  const Setting& setting = GetParam();
+  if (!test::has_drive_rows(setting.noise)) GTEST_SKIP() << "no recordings in " << test::data_folder();
+  test::JointSetting on;
+  on.window = setting.window;
+  const Scored& known = scored(setting.noise);
+  for (std::size_t k = 0; k < known.rows.size(); ++k) {
+    test::DriveRow row = known.rows[k];
+    if (setting.axes.find("xyz"[row.axis]) == std::string::npos) continue;
+    test::ByLag ours = known.figures[k].rmse;
+    if (setting.differs()) {
+      const NoiseModel noise =
+          setting.white_level > 0.0 ? believed_white(row, setting.white_level) : calibrated(row);
+      test::resample(row, setting.rate_hz);
+      ours = test::joint_figures(row, noise, on).rmse;
+    }
+    const test::ByLag best = test::best_butterworth(row, on);
+    for (std::size_t i = 0; i < ours.size(); ++i)
+      EXPECT_LT(ours[i], setting.most * best[i]) << row.name << ", lag " << test::kJointLags[i];
+  }
+}
+
+// Not ahead: 09 x under 1.2 deg/s of imu4 z, whose line is where the road shakes; z under 0.35 and 1.05 deg/s, where a window is short; and where
+// the level is wrong, for which the design allows 10 %.
+INSTANTIATE_TEST_SUITE_P(
+    Settings, JointDrives,
+    testing::Values(Setting{"imu1_x", noise_of(1, 'x', 0)},
+                    Setting{"imu1_x_from_500000", noise_of(1, 'x', 500'000)},
+                    Setting{"imu2_y", noise_of(2, 'y', 0)},
+                    Setting{"imu2_y_from_200000", noise_of(2, 'y', 200'000)},
+                    Setting{"imu4_x", noise_of(4, 'x', 0)}, Setting{"imu4_z", noise_of(4, 'z', 0), 1.04},
+                    Setting{"imu4_z_on_z", noise_of(4, 'z', 0), 1.0, 0.0, 120.0, 1024, "z"},
+                    Setting{"imu4_z_from_200000", noise_of(4, 'z', 200'000)},
+                    Setting{"level_20_percent_low", noise_of(1, 'x', 0), 1.10, 0.8},
+                    Setting{"level_20_percent_high", noise_of(1, 'x', 0), 1.10, 1.2},
+                    Setting{"at_50_Hz", noise_of(1, 'x', 0), 1.0, 0.0, 50.0},
+                    Setting{"at_200_Hz_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 200.0, 1024, "z"},
+                    Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.02, 0.0, 400.0, 1024, "z"},
+                    Setting{"window_512", noise_of(1, 'x', 0), 1.01, 0.0, 120.0, 512},
+                    Setting{"window_2048", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 2048}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+// The design's table, the rows of which were its un-tuned prototype's: no cell more than 3 % behind, and ahead in the mean.
+TEST(JointDrivesPrototype, IsReachedInEveryCell) {
+  if (!test::has_drive_rows()) GTEST_SKIP() << "no recordings in " << test::data_folder();
+  const Scored& known = scored({});
+  double sum = 0.0;
+  for (std::size_t k = 0; k < known.rows.size(); ++k) {
+    const test::PrototypeRow* prototype = test::prototype_of(known.rows[k]);
+    ASSERT_NE(prototype, nullptr) << known.rows[k].name;
+    for (std::size_t i = 0; i < prototype->rmse.size(); ++i) {
+      const std::size_t at = test::PrototypeRow::kLagIndex[i];
+      const double ratio = known.figures[k].rmse[at] / prototype->rmse[i];
+      EXPECT_LT(ratio, 1.03) << prototype->row << ", lag " << test::kJointLags[at];
+      sum += std::log(ratio);
+    }
+  }
+  EXPECT_LT(sum, 0.0);
+}
+
+// A minute at rest is nearly as good as a calibration.
+TEST(JointDrivesLearned, AreWithinThreePercentOfCalibrated) {
+  for (const auto& noise : {noise_of(1, 'x', 0), noise_of(2, 'y', 0), noise_of(4, 'x', 0)}) {
+    if (!test::has_drive_rows(noise)) GTEST_SKIP() << "no recordings in " << test::data_folder();
+    const Scored& known = scored(noise);
+    for (std::size_t k = 0; k < known.rows.size(); ++k) {
+      const test::DriveRow& row = known.rows[k];
+      const NoiseModel learned = scaled(test::learned_at_rest(row), kNoiseMargin);
+      const test::ByLag ours = test::joint_figures(row, learned, {}).rmse;
+      for (std::size_t i = 0; i < ours.size(); ++i)
+        EXPECT_LT(ours[i], 1.03 * known.figures[k].rmse[i])
+            << noise.file << ", " << row.name << ", lag " << test::kJointLags[i];
+    }
+  }
+}
+
+// The published variance is that of the error: right in the mean of rows, within a factor of 2 on each (0.63 to 1.58 when this was written).
+TEST(JointDrivesVariance, IsThatOfTheError) {
+  if (!test::has_drive_rows()) GTEST_SKIP() << "no recordings in " << test::data_folder();
+  const Scored& known = scored({});
+  double sum = 0.0;
+  for (std::size_t k = 0; k < known.rows.size(); ++k) {
+    const double ratio = known.figures[k].normalised_error;
+    EXPECT_GT(ratio, 0.5) << known.rows[k].name;
+    EXPECT_LT(ratio, 2.0) << known.rows[k].name;
+    sum += std::log(ratio);
+  }
+  EXPECT_NEAR(std::exp(sum / static_cast<double>(known.rows.size())), 1.0, 0.1);
+}
+
+}  // namespace
+}  // namespace gyrod::core
