@@ -77,6 +77,11 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("knock_ratio", options.knock_ratio);
   set("knock_tail", options.knock_tail);
   set("knock_share", options.knock_share);
+  set("line_half_width", options.line.half_width);
+  set("line_resolution", options.line.resolution);
+  set("line_drift", options.line.drift);
+  set("line_leak", options.line.leak);
+  set("line_reach", options.line.reach);
   set("variance_factor", options.variance_factor);
   return options;
 }

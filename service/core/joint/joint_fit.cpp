@@ -10,7 +10,9 @@
 #include <string>
 
 #include "core/denoise/noise_line.hpp"
+#include "core/joint/noise_peak.hpp"
 #include "core/signal/moments.hpp"
+#include "core/signal/notch.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -38,7 +40,8 @@ JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
       centred_(max_samples),
       imf_(max_samples),
       slow_(max_samples),
-      periodogram_(tapers_.bins()) {
+      periodogram_(tapers_.bins()),
+      whitened_(tapers_.bins()) {
   if (static_cast<std::size_t>(options.emd.max_imfs) > kMaxImfs) {
     throw std::invalid_argument("IMF limit is " + std::to_string(options.emd.max_imfs) +
                                 ", expected at most " + std::to_string(kMaxImfs));
@@ -63,19 +66,17 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   if (std::ranges::all_of(centred_, [](double value) { return value == 0.0; })) return;
   knocks_.apply(centred_, options_);
   tapers_.spectrum(centred_, periodogram_);
-  judge_noise(noise, model.noise, report);
-  const Tone tone = find_tone(periodogram_, options_.line_prominence);
+  judge_noise(noise, model, report);
+  const Tone tone = find_motion_tone();
   if (tone.prominence >= kSureTone) {
     report.tone_frequency_cycles = tone.frequency_cycles;
     report.tone_amplitude = tone.amplitude * std::sqrt(unit_);
   }
   if (!is_usable(noise_)) return;
+  if (line_.power > 0.0) notch(centred_, line_.cycles, line_.half_width);
   decompose(report);
   start_line(tone);
-  whittle_.observe(periodogram_, noise_);
-  peak_ = is_usable(noise) ? noise_peak(whittle_.noise()) : NoisePeak{};
-  // Quieter windows do not make the line weaker than it is believed to be: it may be all that is as loud as ever.
-  peak_.power /= std::min(model.noise.level(), 1.0);
+  whittle_.observe(periodogram_, noise_, line_.mode);
   whittle_.iterate(full_, options_.pruned_iterations);
   pruned_ = full_;
   whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
@@ -83,6 +84,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   whittle_.iterate(pruned_, options_.pruned_iterations);
   share_out(full_);
   share_out(pruned_);
+  follow_line(model.line, window.size());
   model.mean = report.mean;
   model.scale = scale_;
   design(model);
@@ -90,27 +92,44 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   report.output_noise = std::sqrt(model.member(MemberKind::kFull).error_variance(0));
 }
 
-/// What the noise is taken for: as believed, its level corrected by what the windows so far have shown; or, where nothing is believed,
-/// white, at the level of the quietest bands, or at what the other axes allow.
-void JointFit::judge_noise(const NoiseModel& believed, NoiseTracker& tracker, WindowReport& report) noexcept {
+/// What the noise is taken for: as believed, its level corrected by what the windows so far have shown, and its line where they have shown
+/// it; or, where nothing is believed, white, at the level of the quietest bands, or at what the other axes allow.
+void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, WindowReport& report) noexcept {
   const bool known = is_usable(believed);
   unit_ = known ? noise_variance(believed) : 1.0;
   noise_ = known ? scaled(believed, 1.0 / std::sqrt(unit_)) : white_noise(1.0);
-  const double share = static_cast<double>(options_.hop_samples) / static_cast<double>(max_samples_);
+  model.line.believe(noise_);
+  line_ = model.line.line(options_.line);
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
-  tracker.observe(periodogram_, whittle_.noise(), known, share);
+  model.noise.observe(periodogram_, whittle_.noise(), known, new_share());
   if (known) {
-    noise_ = scaled(noise_, std::sqrt(tracker.level()));
+    const double level = model.noise.level();
+    noise_ = scaled(model.line.rest(), std::sqrt(level));
+    // Quieter windows do not make the line weaker than it is believed to be: it may be all that is as loud as ever.
+    line_.power *= std::max(level, 1.0);
+    line_.mode.drive *= std::max(level, 1.0);
   } else {
-    unit_ = std::min(tracker.floor(), most_noise_);
+    unit_ = std::min(model.noise.floor(), most_noise_);
     if (is_usable(white_noise(unit_))) {
       for (double& power : periodogram_) power /= unit_;
     } else {
       noise_ = {};
     }
   }
-  report.noise_floor = std::sqrt(unit_ * noise_variance(noise_));
+  report.noise_floor = std::sqrt(seen_noise());
+}
+
+/// The tone that stands out most, of the noise where that has a line of its own.
+Tone JointFit::find_motion_tone() noexcept {
+  if (line_.power == 0.0) return find_tone(periodogram_, options_.line_prominence);
+  whittle_.observe(periodogram_, noise_, line_.mode);
+  const auto noise = whittle_.noise();
+  for (std::size_t k = 0; k < noise.size(); ++k) whitened_[k] = periodogram_[k] / noise[k];
+  Tone tone = find_tone(whitened_, options_.line_prominence);
+  const double bin = 2.0 * tone.frequency_cycles * static_cast<double>(noise.size() - 1);
+  tone.amplitude *= std::sqrt(noise[static_cast<std::size_t>(std::lround(bin))]);
+  return tone;
 }
 
 /// IMF by IMF: its figures, and a mode to start from. What is slower than T_slow is gathered with the residue.
@@ -136,14 +155,16 @@ void JointFit::decompose(WindowReport& report) noexcept {
   start_mode(slow, slow_figures);
 }
 
-/// Energy, period, excess and class of an IMF: noise is left out, mixed becomes a mode, signal joins the slow mode.
+/// Energy, period, excess and class of an IMF: noise is left out, mixed becomes a mode, signal joins the slow mode. The noise's line is not in
+/// the window any more.
 void JointFit::describe(std::span<const double> imf, WindowReport& report) const noexcept {
   const std::size_t index = ++report.imf_count;
   ImfFigures& figures = report.imf[index - 1];
   figures = {};
   figures.energy = variance(imf);
   figures.mean_period_samples = mean_period(imf);
-  figures.excess = figures.energy / (report.noise_floor * report.noise_floor * noise_line_energy(index));
+  const double floor = line_.power > 0.0 ? std::sqrt(unit_ * noise_variance(noise_)) : report.noise_floor;
+  figures.excess = figures.energy / (floor * floor * noise_line_energy(index));
   if (figures.mean_period_samples > options_.slow_period_samples) return;
   report.k = index;
   figures.imf_class = figures.excess < options_.least_excess ? ImfClass::kNoise : ImfClass::kMixed;
@@ -176,7 +197,7 @@ void JointFit::start_line(const Tone& tone) noexcept {
 
 void JointFit::design(JointModel& model) noexcept {
   model.fallbacks = 0;
-  model.noise_variance = unit_ * noise_variance(noise_);
+  model.noise_variance = seen_noise();
   model.residual_variance = max_signal_cycles_ < 0.5 ? std::numeric_limits<double>::infinity()
                                                      : model.noise_variance + unit_ * left_out();
   const BlockSet pruned = blocks_of(pruned_, 1.0);
@@ -208,7 +229,7 @@ void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
   member.prediction_variance *= unit_;
 }
 
-/// The modes, all but the slow one and a line driven drive_ratio times as hard, with their roots pulled in; and the noise's colour.
+/// The modes, all but the slow one and a tone driven drive_ratio times as hard, with their roots pulled in; and the noise's colour and line.
 BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
   BlockSet set;
   for (const SpectralMode& mode : modes.modes()) {
@@ -224,12 +245,14 @@ BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept 
     set.add(block);
   }
   if (noise_.colour_order > 0) set.add(colour_block(noise_));
+  if (line_.power > 0.0)
+    set.add({.order = 2, .a = {line_.mode.a[0], line_.mode.a[1]}, .drive = line_.mode.drive});
   return set;
 }
 
-/// What lies above the signal band is no motion, nor is what the noise's own line may have moved to.
+/// What lies above the signal band is no motion, nor is what the noise's own line has left in modes beside it.
 void JointFit::share_out(ModeSet& modes) noexcept {
-  if (max_signal_cycles_ >= 0.5 && peak_.power == 0.0) return;
+  if (max_signal_cycles_ >= 0.5 && line_.power == 0.0) return;
   std::array<ModeNearLine, kMaxModes> candidates{};
   std::size_t count = 0;
   for (SpectralMode& mode : modes.modes()) {
@@ -237,11 +260,21 @@ void JointFit::share_out(ModeSet& modes) noexcept {
     const auto [centre_cycles, power] = whittle_.weigh(mode);
     if (centre_cycles > max_signal_cycles_)
       mode.share = 0.0;
-    else if (peak_.reaches(centre_cycles))
+    else if (power > 0.0 && line_.reaches(centre_cycles, options_.line))
       candidates[count++] = {&mode, power};
   }
-  if (count > 0)
-    share_with_line(peak_, whittle_.expected_line(modes, peak_), std::span(candidates).first(count));
+  share_with_line(line_.power, std::span(candidates).first(count));
+}
+
+void JointFit::follow_line(LineTracker& tracker, std::size_t samples) noexcept {
+  if (line_.power == 0.0) return;
+  tracker.observe({.periodogram = periodogram_,
+                   .rest = whittle_.noise_without_line(),
+                   .explained = whittle_.explained(full_),
+                   .resolution = 1.0 / static_cast<double>(samples),
+                   .power = line_.power,
+                   .share = new_share()},
+                  options_.line);
 }
 
 /// Variance of what is left out of the modes.

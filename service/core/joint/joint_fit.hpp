@@ -11,7 +11,7 @@
 #include "core/joint/joint_model.hpp"
 #include "core/joint/joint_options.hpp"
 #include "core/joint/knock_bridge.hpp"
-#include "core/joint/noise_peak.hpp"
+#include "core/joint/line_tracker.hpp"
 #include "core/joint/recency_tapers.hpp"
 #include "core/joint/tone.hpp"
 #include "core/joint/whittle_fit.hpp"
@@ -19,8 +19,8 @@
 
 namespace gyrod::core {
 
-/// Bridges knocks (KnockBridge), takes the window minus its mean apart (EMD), starts a mode from every IMF that holds more than noise,
-/// one from all that is slow and one from a narrow tone, fits their spectra beside the noise's (WhittleFit), and makes the members of the
+/// Bridges knocks (KnockBridge), takes the line of the sensor's noise out (LineTracker) and the window minus its mean apart (EMD), starts a mode
+/// from every IMF that holds more than noise, one from all that is slow and one from a narrow tone, fits their spectra beside the noise's (WhittleFit), and makes the members of the
 /// bank (MemberDesigner).
 /// Sizes its workspace once; fit() allocates nothing and is a pure function of its input, but for members that cannot be made and keep
 /// what `model` held. One object per worker; not thread-safe.
@@ -54,7 +54,8 @@ class JointFit {
            WindowReport& report) noexcept;
 
  private:
-  void judge_noise(const NoiseModel& believed, NoiseTracker& tracker, WindowReport& report) noexcept;
+  void judge_noise(const NoiseModel& believed, JointModel& model, WindowReport& report) noexcept;
+  [[nodiscard]] Tone find_motion_tone() noexcept;
   void decompose(WindowReport& report) noexcept;
   void describe(std::span<const double> imf, WindowReport& report) const noexcept;
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
@@ -63,6 +64,12 @@ class JointFit {
   void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
   [[nodiscard]] double left_out() noexcept;
+  /// How much of a window is new since the last one.
+  [[nodiscard]] double new_share() const noexcept {
+    return static_cast<double>(options_.hop_samples) / static_cast<double>(max_samples_);
+  }
+  [[nodiscard]] double seen_noise() const noexcept { return unit_ * (noise_variance(noise_) + line_.power); }
+  void follow_line(LineTracker& tracker, std::size_t samples) noexcept;
   void share_out(ModeSet& modes) noexcept;
   [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
 
@@ -78,8 +85,9 @@ class JointFit {
   std::vector<double> imf_;
   std::vector<double> slow_;
   std::vector<double> periodogram_;
-  NoiseModel noise_;   ///< of this window, in parts of unit_
-  NoisePeak peak_;     ///< of its spectrum
+  std::vector<double> whitened_;
+  NoiseModel noise_;   ///< of this window but for its line, in parts of unit_
+  NoiseLine line_;     ///< of this window, in parts of unit_; power 0 where there is none
   double unit_ = 1.0;  ///< variance of the noise
   double most_noise_ = std::numeric_limits<double>::infinity();
   double max_signal_cycles_ = 1.0;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/joint/joint_options.hpp"
+#include "core/joint/line_tracker.hpp"
 #include "core/joint/member_model.hpp"
 #include "core/joint/noise_tracker.hpp"
 
@@ -34,6 +35,8 @@ struct JointModel {
   JointScale scale;
   /// What the windows so far say about the noise.
   NoiseTracker noise;
+  /// And about where its line is.
+  LineTracker line;
   /// Members that could not be made of the last window and keep what they had.
   std::size_t fallbacks = 0;
 

@@ -18,6 +18,21 @@ inline constexpr std::size_t kMaxLag = 32;
 inline constexpr double kDesignRateHz = 120.0;
 inline constexpr std::size_t kDesignWindowSamples = 1024;
 
+/// What is known of the lines that sensors have in their noise, and how they are followed (core/joint/line_tracker.hpp).
+/// Source: tests/benchmark/joint_study.cpp with noise=1z, 2z and 4z; docs/decisions/0007.
+struct LineOptions {
+  /// Half of a line's width at half of its height, in parts of its frequency: 20 Hz +- 0.25 Hz. Range above 0..0.1.
+  double half_width = 0.0125;
+  /// What a window adds to that, in bins of its own length. Range 0..100.
+  double resolution = 1.5;
+  /// How far a line wanders in a window's time, in parts of its frequency. Range 0..0.1.
+  double drift = 0.01;
+  /// Of what has been learned, the part that a window's time takes away: a road or an engine that was taken for the line is forgotten. Range 0..1.
+  double leak = 0.1;
+  /// Modes so near may be the rest of the line, in half widths of what it is taken for. Range 0..100.
+  double reach = 2.0;
+};
+
 /// As of the design's rate and window; JointScale tells what becomes of them elsewhere.
 /// Source, where nothing else is said: tests/benchmark/joint_study.cpp and docs/method.md, which give what other values cost.
 struct JointOptions {
@@ -132,6 +147,7 @@ struct JointOptions {
   double knock_ratio = 100.0;
   double knock_tail = 5.0;
   double knock_share = 0.25;
+  LineOptions line;
 };
 
 /// Which options hold for a sample rate and a window. Those that mean a time keep it at rates above the design's, those that a short window

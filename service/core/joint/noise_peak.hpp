@@ -1,51 +1,40 @@
 /// The line in a sensor's own noise, and what may be it.
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <span>
 
 #include "core/joint/spectral_mode.hpp"
+#include "core/noise/noise_fit.hpp"
+#include "core/noise/noise_model.hpp"
 
 namespace gyrod::core {
 
-/// The narrow peak of a noise spectrum. A plain value; power 0 where there is none.
+/// A noise whose spectrum has a narrow peak, taken apart. Powers are in the noise's unit squared.
 struct NoisePeak {
-  /// A sensor's line wanders with temperature (noise/line_spread.hpp); at start-up it can be a tenth from where it settles. The fit then finds a
-  /// mode beside the line that it was told, which is no motion.
-  /// Chosen by joint_study (docs/method.md, "Noise lines that wander"): at 0.15 the line of imu1 z is kept as motion, 0.3 serves a little better still, and
-  /// costs more of what may be motion.
-  static constexpr double kReach = 0.25;
-  /// The line is at most this many times as strong as believed, in a window that is too short to tell. From the same place: at 1.0 some of
-  /// it is kept as motion, at 2 motion is lost where a road shakes at its frequency.
-  static constexpr double kMostPower = 1.25;
-
-  double cycles = 0.0;        ///< its frequency, cycles per sample
-  double power = 0.0;         ///< variance of what stands above the spectrum around it
-  double surroundings = 0.0;  ///< mean of the spectrum further away than kReach of its frequency
-  /// Bins [first, end) of that spectrum are within reach.
-  std::size_t first_bin = 0;
-  std::size_t end_bin = 0;
-
-  /// Whether the line may have moved to this frequency.
-  [[nodiscard]] bool reaches(double centre_cycles) const noexcept;
+  double cycles = 0.0;   ///< the peak's frequency, cycles per sample
+  double power = 0.0;    ///< variance of the line
+  NoiseModel rest{};     ///< the noise without it
+  NoiseSpectrum line{};  ///< what the line has of the noise's spectrum
 };
 
-/// The highest point above 1/40 cycle per sample, where slow noise does not count, if it stands 2.5 times as high as the mean of what is further away than
-/// kReach of its frequency.
-/// @param spectrum power at equally spaced frequencies from 0 to half a cycle per sample; mean of all bins = variance. At least 64 bins
-[[nodiscard]] NoisePeak noise_peak(std::span<const double> spectrum) noexcept;
+/// The highest point above 1/40 cycle per sample, where slow noise does not count, if it stands 2.5 times as high as the mean of what is further away than a
+/// quarter of its frequency. The line is what stands above the straight line between the spectrum's values 30 % below and above the peak: what is
+/// known of the noise has been spread by 15 % of each frequency (noise/line_spread.hpp).
+/// @return nothing where there is no such peak, or the rest is no usable noise
+/// Allocates nothing; about 0.2 ms.
+[[nodiscard]] std::optional<NoisePeak> find_noise_peak(const NoiseModel& noise) noexcept;
 
-/// A mode within reach of the line, and its variance.
+/// A mode near the line, and its variance.
 struct ModeNearLine {
   SpectralMode* mode = nullptr;
   double power = 0.0;
 };
 
-/// Sets the share of each mode. What is missing of the line where it is believed to be, up to kMostPower of its power in all, is in the modes: in
-/// the narrowest, which is most like a line, as far as that goes, then in the next; the rest of them is motion. A mode that is more than all
-/// of this is motion as well, and where it is twice as much, only what is missing of the line's believed power is in it.
-/// @param expected the line's power where it is believed to be (WhittleFit::expected_line)
+/// Sets the share of each mode. A line's power in a window varies, and the shape that it is taken for is a guess: modes at its place are the rest of it,
+/// up to a quarter of its power in all, first the narrowest, which are most like a line. A mode that is more than that is motion in part, and where
+/// it is twice as much, all of it.
 /// @param modes their powers above 0; reordered
-void share_with_line(const NoisePeak& peak, double expected, std::span<ModeNearLine> modes) noexcept;
+void share_with_line(double line_power, std::span<ModeNearLine> modes) noexcept;
 
 }  // namespace gyrod::core

@@ -23,6 +23,7 @@ WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles, E
       sines_(kLags * bins_),
       weights_(kLags * bins_),
       noise_(bins_),
+      rest_(bins_),
       observed_(bins_),
       sum_(bins_),
       deviation_(bins_),
@@ -41,15 +42,47 @@ WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles, E
   }
 }
 
-void WhittleFit::observe(std::span<const double> periodogram, const NoiseModel& noise) noexcept {
+void WhittleFit::observe(std::span<const double> periodogram, const NoiseModel& noise,
+                         const SpectralMode& line) noexcept {
   assert(periodogram.size() == bins_ && is_usable(noise));
   std::ranges::copy(periodogram, observed_.begin());
-  if (noise == noise_model_) return;
-  noise_model_ = noise;
-  for (std::size_t k = 0; k < bins_; ++k) {
-    noise_[k] =
-        noise_spectrum(noise, std::numbers::pi * static_cast<double>(k) / static_cast<double>(bins_ - 1));
+  sum_noise(noise);
+  std::ranges::copy(rest_, noise_.begin());
+  if (line.drive > 0.0) {
+    kernel_->add_spectrum(bins_, line, cosines_.data(), sines_.data(), row(0).data(), noise_.data());
   }
+}
+
+/// noise_spectrum() at every bin, by Horner's rule in z = e^-iw.
+void WhittleFit::sum_noise(const NoiseModel& noise) noexcept {
+  const double* const cosine = cosines_.data() + bins_;
+  const double* const sine = sines_.data() + bins_;
+  for (std::size_t k = 0; k < bins_; ++k) {
+    double real = 0.0;
+    double imaginary = 0.0;
+    for (std::size_t i = noise.colour_order; i > 0; --i) {
+      const double sum = real - noise.colour[i - 1];
+      real = sum * cosine[k] + imaginary * sine[k];
+      imaginary = imaginary * cosine[k] - sum * sine[k];
+    }
+    real += 1.0;
+    rest_[k] = noise.white_variance + noise.colour_variance / (real * real + imaginary * imaginary);
+  }
+}
+
+std::span<const double> WhittleFit::explained(const ModeSet& modes) noexcept {
+  sum_spectra(modes);
+  double expected = 0.0;
+  double believed = 0.0;
+  for (std::size_t k = 0; k < bins_; ++k) {
+    const double line = noise_[k] - rest_[k];
+    const double part = line / sum_[k];
+    expected += line + part * part * (observed_[k] - sum_[k]);
+    believed += line;
+  }
+  const double e = believed > 0.0 ? expected / believed : 0.0;
+  for (std::size_t k = 0; k < bins_; ++k) sum_[k] += e * (noise_[k] - rest_[k]) - noise_[k];
+  return sum_;
 }
 
 void WhittleFit::iterate(ModeSet& modes, int iterations) noexcept {
@@ -100,17 +133,6 @@ WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
   }
   return {.centre_cycles = power > 0.0 ? 0.5 * moment / power / static_cast<double>(bins_ - 1) : 0.0,
           .power = power / static_cast<double>(bins_)};
-}
-
-double WhittleFit::expected_line(const ModeSet& modes, const NoisePeak& peak) noexcept {
-  sum_spectra(modes);
-  double sum = 0.0;
-  for (std::size_t k = peak.first_bin; k < peak.end_bin; ++k) {
-    const double line = std::max(noise_[k] - peak.surroundings, 0.0);
-    const double part = line / sum_[k];
-    sum += line + part * part * (observed_[k] - sum_[k]);
-  }
-  return sum / static_cast<double>(bins_);
 }
 
 SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool slow) const noexcept {

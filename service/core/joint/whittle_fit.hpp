@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/joint/joint_options.hpp"
-#include "core/joint/noise_peak.hpp"
 #include "core/joint/spectral_kernel.hpp"
 #include "core/joint/spectral_mode.hpp"
 #include "core/noise/noise_model.hpp"
@@ -26,12 +25,21 @@ class WhittleFit {
   /// @param kernel all that are available give the same bits
   WhittleFit(std::size_t transform_samples, double bandwidth_cycles, EmdKernel kernel = EmdKernel::kFastest);
 
-  /// Takes the window's periodogram and the noise, both in the same unit. The noise's spectrum is computed only where it changed.
+  /// Takes the window's periodogram and the noise, both in the same unit, and a line of the noise beside that (drive 0: none).
   /// @pre periodogram has transform_samples / 2 + 1 bins; is_usable(noise)
-  void observe(std::span<const double> periodogram, const NoiseModel& noise) noexcept;
+  void observe(std::span<const double> periodogram, const NoiseModel& noise,
+               const SpectralMode& line = {}) noexcept;
 
   /// The noise's spectrum at every bin, as observe() was told.
   [[nodiscard]] std::span<const double> noise() const noexcept { return noise_; }
+  /// The same without the line.
+  [[nodiscard]] std::span<const double> noise_without_line() const noexcept { return rest_; }
+
+  /// What of the window is more than noise without its line, in the eyes of the fit: the modes' spectra and the line's, as strong as is expected of it in
+  /// this window,
+  ///   sum_j S_j + e L,   e = sum (L + (L / M)^2 (I - M)) / sum L,
+  /// with L the line that observe() was told; valid until the next call of anything here.
+  [[nodiscard]] std::span<const double> explained(const ModeSet& modes) noexcept;
 
   /// What every iteration takes off a mode's drive from here on, the slow mode's excepted, in parts of it. 0 at the start.
   void set_shrinkage(double shrinkage) noexcept { kept_ = 1.0 - shrinkage; }
@@ -53,15 +61,11 @@ class WhittleFit {
   };
   [[nodiscard]] Weight weigh(const SpectralMode& mode) noexcept;
 
-  /// Power of the noise's line, as expected of a window with these modes in it: (L / M)^2 I + L (1 - L / M), with L what of R stands above the
-  /// peak's surroundings. The peak's power where the line is where R has it, less where it has moved away.
-  /// @param peak noise_peak(noise())
-  [[nodiscard]] double expected_line(const ModeSet& modes, const NoisePeak& peak) noexcept;
-
   /// The mode whose autocovariances r_0 .. r_kModeOrder are given.
   [[nodiscard]] SpectralMode mode_of(std::span<const double> autocovariance, bool slow) const noexcept;
 
  private:
+  void sum_noise(const NoiseModel& noise) noexcept;
   void sum_spectra(const ModeSet& modes) noexcept;
   void maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept;
   [[nodiscard]] double gain_of(std::span<const double> spectrum) const noexcept;
@@ -71,13 +75,13 @@ class WhittleFit {
 
   const SpectralKernel* kernel_;
   std::size_t bins_;
-  NoiseModel noise_model_;
   std::array<double, kModeOrder + 1> narrowing_{};  ///< lag window of the modes that are not slow
   double kept_ = 1.0;                               ///< of a mode's drive, by an iteration
   std::vector<double> cosines_;                     ///< kModeOrder + 1 rows: cos(l w)
   std::vector<double> sines_;
   std::vector<double> weights_;  ///< the same cosines as weights of a bin in the autocovariance at lag l
   std::vector<double> noise_;    ///< R
+  std::vector<double> rest_;     ///< R without the line
   std::vector<double> observed_;
   std::vector<double> sum_;        ///< M
   std::vector<double> deviation_;  ///< (I - M) / M^2

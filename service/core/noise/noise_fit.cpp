@@ -54,10 +54,16 @@ NoiseSpectrum without_bias(const NoiseSpectrum& power) noexcept {
 }  // namespace
 
 std::optional<NoiseModel> fit_noise(const NoiseSpectrum& power) noexcept {
-  NoiseSpectrum rest = without_bias(power);
+  const NoiseSpectrum rest = without_bias(power);
   const double variance = autocovariance(rest, 0);
   if (!(variance > 0.0) || !std::isfinite(variance)) return std::nullopt;
-  const double white = std::max(0.5 * least_level(rest), kLeastWhite * variance);
+  return fit_noise(rest, std::max(0.5 * least_level(rest), kLeastWhite * variance));
+}
+
+std::optional<NoiseModel> fit_noise(const NoiseSpectrum& power, double white) noexcept {
+  const double variance = autocovariance(power, 0);
+  if (!(variance > 0.0) || !std::isfinite(variance)) return std::nullopt;
+  NoiseSpectrum rest = power;
   for (double& bin : rest) bin = std::max(bin - white, 0.0);
   std::array<double, kMaxNoiseColour + 1> lags{};
   for (std::size_t lag = 0; lag < lags.size(); ++lag) lags[lag] = autocovariance(rest, lag);

@@ -27,4 +27,7 @@ using NoiseSpectrum = std::array<double, kNoiseBins>;
 /// Source: "white + AR" as Whittle-type spectrum splitting, Yule-Walker by Levinson 1947.
 [[nodiscard]] std::optional<NoiseModel> fit_noise(const NoiseSpectrum& power) noexcept;
 
+/// The same where the white part R0 is known, and the spectrum is good at its slow end. @pre white > 0
+[[nodiscard]] std::optional<NoiseModel> fit_noise(const NoiseSpectrum& power, double white) noexcept;
+
 }  // namespace gyrod::core

@@ -8,6 +8,7 @@
 
 #include "support/allocation_counter.hpp"
 #include "unit/core/joint/joint_support.hpp"
+#include "unit/core/joint/line_support.hpp"
 
 namespace gyrod {
 namespace {
@@ -88,14 +89,9 @@ TEST(JointFit, KnowsWhatResidualsMayBe) {
   fit.fit(z, core::white_noise(1.0), model, report);
   EXPECT_EQ(model.residual_variance, std::numeric_limits<double>::infinity());
   fit.set_max_signal(1.0);
-  NoiseModel line = core::white_noise(1.0);  // of the tone's power, not quite where the tone is
-  const auto block = testing::oscillation(0.97, 2.0 * std::numbers::pi * 0.22, 1.0);
-  line.colour_order = 2;
-  line.colour = {block.a[0], block.a[1]};
-  line.colour_variance = 1.0;
-  line.colour_variance = 2.0 / (core::noise_variance(line) - 1.0);
-  fit.fit(z, line, model, report);
-  EXPECT_GT(model.residual_variance, 1.2 * model.noise_variance);
+  // Of four times the tone's power, and where the tone is: all of the tone may be the rest of it.
+  fit.fit(z, testing::noise_with_line(0.2, 8.0), model, report);
+  EXPECT_GT(model.residual_variance, 1.05 * model.noise_variance);
 }
 
 // The tone is the only thing there, and above the band.
@@ -171,6 +167,28 @@ TEST(JointFit, ReportsAToneWhenItIsSure) {
   EXPECT_NEAR(reported(1.0).tone_amplitude, 1.0, 0.15);
   EXPECT_EQ(reported(0.45).tone_amplitude, 0.0);
   EXPECT_EQ(reported(0.0).tone_amplitude, 0.0);
+}
+
+// A line of the sensor's noise is no tone, though it stands out 100 times; a tone beside it is one.
+TEST(JointFit, TheLineOfTheNoiseIsNoTone) {
+  const core::NoiseModel noise = testing::noise_with_line(0.2, 3.0);
+  const Signal shape = testing::autoregressive(noise.colour_coefficients(), 8 * kWindow, 2);
+  const Signal line = testing::times(shape, std::sqrt(noise.colour_variance));
+  const auto reported = [&](double amplitude) {
+    JointFit fit(kWindow);
+    JointModel model;
+    WindowReport report;
+    for (std::size_t first = 0; first + kWindow <= line.size(); first += 32) {
+      Signal z(line.begin() + static_cast<std::ptrdiff_t>(first),
+               line.begin() + static_cast<std::ptrdiff_t>(first + kWindow));
+      z = testing::sum(z, testing::white_noise(kWindow, static_cast<unsigned>(first)));
+      fit.fit(testing::sum(z, testing::tone(kWindow, 0.3), amplitude), noise, model, report);
+    }
+    return report;
+  };
+  EXPECT_EQ(reported(0.0).tone_amplitude, 0.0);
+  EXPECT_NEAR(reported(1.0).tone_frequency_cycles, 0.3, 0.5 / kWindow);
+  EXPECT_NEAR(reported(1.0).tone_amplitude, 1.0, 0.2);
 }
 
 // With its drive divided by 16 the tone would be all but given up by the still member: its innovations would have 0.64 of the variance.
@@ -289,6 +307,7 @@ TEST(JointFit, AllocatesNothingAfterConstruction) {
   const auto before = testing::allocations();
   fit.fit(z, core::white_noise(0.09), model, report);
   fit.fit(std::span(z).first(500), {}, model, report);
+  fit.fit(z, testing::noise_with_line(0.2, 0.5), model, report);
   EXPECT_EQ(testing::allocations(), before);
   EXPECT_TRUE(model.usable());
 }

@@ -3,86 +3,73 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "line_support.hpp"
 
 namespace gyrod::core {
 namespace {
 
-constexpr std::size_t kBins = 1025;
-
-/// White of 1, and a line as wide as five bins in the middle of which 1 + height stands.
-std::vector<double> with_line(double cycles, double height) {
-  std::vector<double> spectrum(kBins, 1.0);
-  const auto middle = static_cast<std::size_t>(std::lround(2.0 * cycles * (kBins - 1)));
-  for (std::size_t k = middle - 2; k <= middle + 2; ++k) spectrum[k] += height * (k == middle ? 1.0 : 0.5);
-  return spectrum;
-}
+using testing::noise_with_line;
 
 TEST(NoisePeak, FindsFrequencyAndPowerOfALine) {
-  // The line's variance is its mean over all bins: (1 + 4 * 0.5) * 400 / 1025.
-  const NoisePeak peak = noise_peak(with_line(0.2, 400.0));
-  EXPECT_NEAR(peak.cycles, 0.2, 0.5 / (kBins - 1));
-  EXPECT_NEAR(peak.power, 3.0 * 400.0 / kBins, 1e-9);
+  const auto peak = find_noise_peak(noise_with_line(0.2, 0.5));
+  ASSERT_TRUE(peak);
+  EXPECT_NEAR(peak->cycles, 0.2, 1.0 / kNoiseSegment);
+  // A resonance has a tenth of its power below the line from foot to foot and beyond: (2 / pi) (h / d) each, h half its width, d 0.06 cycles.
+  EXPECT_NEAR(peak->power, 0.9 * 0.5, 0.02 * 0.5);
+}
+
+// What the noise is taken apart into makes the noise again.
+TEST(NoisePeak, RestAndLineAddUp) {
+  const NoiseModel noise = noise_with_line(0.2, 0.5);
+  const auto peak = find_noise_peak(noise);
+  ASSERT_TRUE(peak);
+  EXPECT_NEAR(noise_variance(peak->rest) + peak->power, noise_variance(noise), 1e-6);
+  EXPECT_EQ(peak->rest.white_variance, noise.white_variance);
+  for (std::size_t k = 0; k < kNoiseBins; k += 8) {
+    const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / kNoiseSegment;
+    // White noise of 1 and the resonance's feet: what is left has no peak; the peak stood at 9.
+    EXPECT_NEAR(noise_spectrum(peak->rest, w), 1.0, 0.15) << k;
+  }
 }
 
 TEST(NoisePeak, ThereIsNoneInWhiteNoiseNorInASlope) {
-  EXPECT_EQ(noise_peak(std::vector<double>(kBins, 2.0)).power, 0.0);
-  std::vector<double> slope(kBins);  // falls to a quarter, as behind a first-order low-pass filter
-  for (std::size_t k = 0; k < kBins; ++k) slope[k] = 1.0 / (1.0 + 3.0 * static_cast<double>(k) / (kBins - 1));
-  EXPECT_EQ(noise_peak(slope).power, 0.0);
+  EXPECT_FALSE(find_noise_peak(white_noise(2.0)));
+  NoiseModel slope = white_noise(1.0);  // falls to a ninth, as behind a first-order low-pass filter
+  slope.colour_order = 1;
+  slope.colour[0] = 0.5;
+  slope.colour_variance = 1.0;
+  EXPECT_FALSE(find_noise_peak(slope));
+  EXPECT_FALSE(find_noise_peak({}));
 }
 
-TEST(NoisePeak, SlowNoiseIsNotALine) {
-  std::vector<double> flicker(kBins, 1.0);
-  for (std::size_t k = 1; k < kBins; ++k) flicker[k] += 30.0 / static_cast<double>(k);
-  EXPECT_EQ(noise_peak(flicker).power, 0.0);
-}
+TEST(NoisePeak, SlowNoiseIsNotALine) { EXPECT_FALSE(find_noise_peak(noise_with_line(0.005, 3.0))); }
 
-TEST(NoisePeak, KnowsItsSurroundings) {
-  const NoisePeak peak = noise_peak(with_line(0.2, 400.0));
-  EXPECT_EQ(peak.surroundings, 1.0);
-  EXPECT_NEAR(static_cast<double>(peak.first_bin), 0.15 * 2.0 * (kBins - 1), 1.0);
-  EXPECT_NEAR(static_cast<double>(peak.end_bin), 0.25 * 2.0 * (kBins - 1), 2.0);
-}
-
-TEST(NoisePeak, ReachesAQuarterOfItsFrequency) {
-  const NoisePeak peak{.cycles = 0.2, .power = 3.0};
-  EXPECT_TRUE(peak.reaches(0.151));
-  EXPECT_TRUE(peak.reaches(0.249));
-  EXPECT_FALSE(peak.reaches(0.149));
-  EXPECT_FALSE(peak.reaches(0.251));
-  EXPECT_FALSE(NoisePeak{}.reaches(0.0));
-}
-
-/// What is motion of a broad mode of power 2 and a narrow one of power 3, beside a line of power 4, when so much is expected to be where it
-/// is believed to be: {broad, narrow}.
-std::array<double, 2> shares(double expected) {
-  SpectralMode broad{.drive = 2.0 * 0.8};
-  SpectralMode narrow{.drive = 3.0 * 0.01};
-  std::array<ModeNearLine, 2> modes{{{&broad, 2.0}, {&narrow, 3.0}}};
-  share_with_line(NoisePeak{.cycles = 0.2, .power = 4.0}, expected, modes);
+/// What is motion of a broad mode and a narrow one of these powers, beside a line of power 4: {broad, narrow}.
+std::array<double, 2> shares(double broad_power, double narrow_power) {
+  SpectralMode broad{.drive = broad_power * 0.8};
+  SpectralMode narrow{.drive = narrow_power * 0.01};
+  std::array<ModeNearLine, 2> modes{{{&broad, broad_power}, {&narrow, narrow_power}}};
+  share_with_line(4.0, modes);
   return {broad.share, narrow.share};
 }
 
-void expect_shares(double expected, double broad, double narrow) {
-  const auto [its_broad, its_narrow] = shares(expected);
-  EXPECT_NEAR(its_broad, broad, 1e-12) << expected;
-  EXPECT_NEAR(its_narrow, narrow, 1e-12) << expected;
+void expect_shares(double broad_power, double narrow_power, double broad, double narrow) {
+  const auto [its_broad, its_narrow] = shares(broad_power, narrow_power);
+  EXPECT_NEAR(its_broad, broad, 1e-12) << broad_power << ", " << narrow_power;
+  EXPECT_NEAR(its_narrow, narrow, 1e-12) << broad_power << ", " << narrow_power;
 }
 
-// The line has 4, or up to 5 = 1.25 times 4 where that explains a mode; and the narrow mode is asked first.
-TEST(NoisePeak, WhatTheLineMayHaveElsewhereIsInTheNarrowestModes) {
-  expect_shares(0.0, 0.0, 0.0);  // 5 may be missing: all of the modes
-  // 4 may be: the narrow one; of the 1 that is left then the broad one is twice as much, and nothing is missing.
-  expect_shares(1.0, 1.0, 0.0);
-  expect_shares(5.0, 1.0, 1.0);   // nothing
-  expect_shares(50.0, 1.0, 1.0);  // motion at the line's frequency
-  // After the narrow mode 1.5 may be missing and 0.5 is; the broad one has 4/3 of 1.5: a third of the way from one to the other.
-  expect_shares(0.5, 1.0 - (1.5 - 1.0 / 3.0) / 2.0, 0.0);
-  // 1.5 may be missing and 0.5 is: that, as the narrow mode is twice as much. Of the 1 that is left then the broad one is twice as much.
-  expect_shares(3.5, 1.0, 1.0 - 0.5 / 3.0);
+// A quarter of 4 may be in modes: the narrow mode is asked first, then the broad one for what is left.
+TEST(NoisePeak, AQuarterOfTheLinesPowerMayBeInTheNarrowestModes) {
+  expect_shares(0.4, 0.6, 0.0, 0.0);
+  expect_shares(2.0, 0.4, 1.0, 0.0);              // 0.6 left, and more than twice that is motion
+  expect_shares(0.9, 0.4, 1.0 - 0.3 / 0.9, 0.0);  // 0.6 left, one and a half times that: half of it
+  expect_shares(0.5, 2.0, 0.0, 1.0);              // twice 1 is motion, and leaves the 1
+  expect_shares(3.0, 5.0, 1.0, 1.0);
 }
 
 }  // namespace

@@ -111,22 +111,43 @@ NoiseModel noise_with_line() {
   return model;
 }
 
-// Where the periodogram is what the noise and the modes make together, the line is what it is believed to be; where it has left its place,
-// nearly nothing: there sum L - (L / M)^2 (M - 1) is left, with M = L + 1, and 0.18 of 2.
-TEST(WhittleFit, ExpectsTheLineWhereTheWindowHasIt) {
-  const ModeSet modes = set_of({oscillation(0.9, 1.3, 0.5), slow_mode(0.98, 0.1)});
+// The reference is noise_spectrum(), by cosines and sines of each multiple; here it is Horner's rule.
+TEST(WhittleFit, TheNoisesSpectrumIsThatOfItsModelAndOfItsLine) {
+  NoiseModel noise = noise_with_line();
+  noise.colour_order = kMaxNoiseColour;
+  noise.colour[kMaxNoiseColour - 1] = -0.1;
+  const SpectralMode line = oscillation(0.98, 1.7, 0.02);
   WhittleFit fit(kTransform, 0.0);
-  fit.observe(Signal(kBins, 1.0), noise_with_line());
-  const NoisePeak peak = noise_peak(fit.noise());
-  ASSERT_NEAR(peak.power, 2.0, 0.4);
-  Signal whole(fit.noise().begin(), fit.noise().end());
+  fit.observe(Signal(kBins, 1.0), noise, line);
   for (std::size_t k = 0; k < kBins; ++k) {
-    for (const SpectralMode& mode : modes.modes()) whole[k] += spectrum_of(mode, radians(k));
+    const double rest = noise_spectrum(noise, radians(k));
+    EXPECT_NEAR(fit.noise_without_line()[k] / rest, 1.0, 1e-12);
+    EXPECT_NEAR(fit.noise()[k] / (rest + spectrum_of(line, radians(k))), 1.0, 1e-12);
   }
-  fit.observe(whole, noise_with_line());
-  EXPECT_NEAR(fit.expected_line(modes, peak), peak.power, 1e-9);
-  fit.observe(Signal(kBins, 1.0), noise_with_line());
-  EXPECT_LT(fit.expected_line(set_of({}), peak), 0.15 * peak.power);
+  fit.observe(Signal(kBins, 1.0), white_noise(2.0));
+  EXPECT_EQ(fit.noise()[17], 2.0) << "nothing is left of what was told before";
+}
+
+// Where the periodogram is what noise, line and modes make together, the line is as strong as believed; where it has left its place there is little of
+// it: sum L - (L / M)^2 (M - 1) with M = L + 1, and L up to 38 here.
+TEST(WhittleFit, ExplainsModesAndAsMuchOfTheLineAsTheWindowHas) {
+  const ModeSet modes = set_of({oscillation(0.9, 1.3, 0.5), slow_mode(0.98, 0.1)});
+  const SpectralMode line = oscillation(0.97, 2.0, 0.15);
+  constexpr std::size_t kPeak = 326;  // 2.0 radians
+  WhittleFit fit(kTransform, 0.0);
+  Signal whole = expected_periodogram(modes);
+  for (std::size_t k = 0; k < kBins; ++k) whole[k] += spectrum_of(line, radians(k));
+  fit.observe(whole, white_noise(1.0), line);
+  const auto all = fit.explained(modes);
+  for (std::size_t k = 0; k < kBins; k += 7) EXPECT_NEAR(all[k], whole[k] - 1.0, 1e-9 * whole[k]) << k;
+
+  fit.observe(Signal(kBins, 1.0), white_noise(1.0), line);
+  EXPECT_LT(fit.explained(set_of({}))[kPeak], 0.35 * spectrum_of(line, radians(kPeak)));
+
+  fit.observe(whole, white_noise(1.0));
+  const auto without = fit.explained(modes);
+  for (std::size_t k = 0; k < kBins; k += 7)
+    EXPECT_NEAR(without[k], expected_periodogram(modes)[k] - 1.0, 1e-9 * whole[k]);
 }
 
 // Where the fit would stay, an iteration takes its share of the drive and no more; the slow mode pays nothing.

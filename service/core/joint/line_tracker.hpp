@@ -1,0 +1,84 @@
+/// Where the line of a sensor's own noise is by now.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/joint/joint_options.hpp"
+#include "core/joint/spectral_mode.hpp"
+#include "core/noise/noise_fit.hpp"
+#include "core/noise/noise_model.hpp"
+
+namespace gyrod::core {
+
+/// A frequency and how well it is known, cycles per sample.
+struct LinePlace {
+  double cycles = 0.0;
+  double deviation = 0.0;
+};
+
+/// The noise's line as it is taken for in a window. Power 0 where the noise has none.
+struct NoiseLine {
+  double cycles = 0.0;
+  double half_width = 0.0;  ///< its own, and what is not known of its frequency; cycles per sample
+  double power = 0.0;       ///< variance, in the noise's unit squared
+  SpectralMode mode{};      ///< an AR(2) process of that frequency, width and variance
+
+  /// Whether a mode at this frequency may be the rest of it.
+  [[nodiscard]] bool reaches(double centre_cycles, const LineOptions& options) const noexcept;
+};
+
+/// What a window shows of the noise, at bins 0 .. n/2 of a transform: all in the noise's unit squared.
+struct LineEvidence {
+  std::span<const double> periodogram;
+  std::span<const double> rest;  ///< spectrum of the noise without its line
+  std::span<const double>
+      explained;  ///< spectrum of what the fit makes of the rest of the window, wherever it took the line to be
+  double resolution = 0.0;  ///< width of a bin of the window itself, cycles per sample: 1 / samples
+  double power = 0.0;       ///< of the line
+  double share = 0.0;       ///< how much of a window is new since the last one, 0..1
+};
+
+/// Lines of MEMS gyros wander with temperature, by a per cent within seconds and by a tenth within an hour, and hardly change their power. So the noise is
+/// taken apart into the line and the rest (NoisePeak), and of kPlaces frequencies within a quarter of where the line is believed to be
+/// each has a probability w. At first these are as the believed spectrum has it. With every window they spread, by `drift` of the frequency a
+/// window, `leak` of them goes back to what it was at first, and Bayes' rule follows with
+///   ln L_i = -sum over bins within reach of (ln M + I / M),   M = rest + max(explained, line at place i),
+/// to the power of share: windows that overlap say the same again. The larger of the two stands there as the fit has made a mode of a line
+/// that it did not know to be there; so what decides is where the window has the line's power.
+/// A plain value; allocates nothing.
+/// Source: docs/method.md, "The noise's line".
+class LineTracker {
+ public:
+  static constexpr std::size_t kPlaces = 41;
+  /// Places reach this far, in parts of the frequency.
+  static constexpr double kReach = 0.25;
+
+  /// The noise that is believed. Nothing happens where it is what it was; a line that has moved by more than a twentieth is looked for anew.
+  void believe(const NoiseModel& noise) noexcept;
+  /// That noise without its line; the noise itself where it has none.
+  [[nodiscard]] const NoiseModel& rest() const noexcept { return rest_; }
+  /// The line, as far as it is known by now.
+  [[nodiscard]] NoiseLine line(const LineOptions& options) const noexcept;
+  [[nodiscard]] LinePlace place() const noexcept;
+  /// Takes what a window shows. @pre line(options).power > 0; the spans are of one size
+  void observe(const LineEvidence& window, const LineOptions& options) noexcept;
+
+ private:
+  using Places = std::array<double, kPlaces>;
+
+  [[nodiscard]] double cycles_at(std::size_t place) const noexcept;
+  void look_anew(double cycles, const NoiseSpectrum& line) noexcept;
+  void spread(double share, const LineOptions& options) noexcept;
+  [[nodiscard]] Places log_likelihoods(const LineEvidence& window, const LineOptions& options) const noexcept;
+
+  NoiseModel believed_;
+  NoiseModel rest_;
+  double power_ = 0.0;
+  double anchor_ = 0.0;  ///< of the places: where the line was believed to be
+  Places prior_{};
+  Places weight_{};
+};
+
+}  // namespace gyrod::core

@@ -1,0 +1,197 @@
+#include "core/joint/line_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "line_support.hpp"
+#include "support/allocation_counter.hpp"
+#include "support/signals.hpp"
+
+namespace gyrod::core {
+namespace {
+
+using testing::noise_with_line;
+using testing::Signal;
+
+constexpr std::size_t kSamples = 1024;
+constexpr std::size_t kBins = kSamples / 2 + 1;
+constexpr double kShare = 1.0 / 32.0;
+constexpr double kPower = 0.5;
+constexpr LineOptions kOptions;
+/// From one place to the next.
+constexpr double kStep = 2.0 * LineTracker::kReach * 0.2 / static_cast<double>(LineTracker::kPlaces - 1);
+
+/// The spectrum of a narrow line of this variance: that of a mode or of a window that holds it.
+Signal line_at(double cycles, double power) {
+  const NoiseModel with = noise_with_line(cycles, power);
+  Signal spectrum(kBins);
+  for (std::size_t k = 0; k < kBins; ++k) {
+    spectrum[k] =
+        noise_spectrum(with, std::numbers::pi * static_cast<double>(k) / static_cast<double>(kBins - 1)) -
+        1.0;
+  }
+  return spectrum;
+}
+
+/// White noise of 1 and these.
+Signal window_with(const Signal& a, const Signal& b = Signal(kBins, 0.0)) {
+  Signal sum(kBins, 1.0);
+  for (std::size_t k = 0; k < kBins; ++k) sum[k] += a[k] + b[k];
+  return sum;
+}
+
+/// Told of a line at 0.2.
+LineTracker tracker_at_first() {
+  LineTracker tracker;
+  tracker.believe(noise_with_line(0.2, kPower));
+  return tracker;
+}
+
+/// So many windows' times of the same window.
+void watch(LineTracker& tracker, const Signal& window, const Signal& motion, double windows = 10.0) {
+  const Signal rest(kBins, 1.0);
+  for (double time = 0.0; time < windows; time += kShare) {
+    tracker.observe({.periodogram = window,
+                     .rest = rest,
+                     .explained = motion,
+                     .resolution = 1.0 / kSamples,
+                     .power = kPower,
+                     .share = kShare},
+                    kOptions);
+  }
+}
+
+const Signal kNoMotion(kBins, 0.0);
+
+TEST(LineTracker, NoiseWithoutALineIsLeftAsItIs) {
+  LineTracker tracker;
+  const NoiseModel noise = white_noise(1.0);
+  tracker.believe(noise);
+  EXPECT_EQ(tracker.rest(), noise);
+  EXPECT_EQ(tracker.line(kOptions).power, 0.0);
+  EXPECT_FALSE(tracker.line(kOptions).reaches(0.0, kOptions));
+}
+
+TEST(LineTracker, BeginsWithWhatIsBelieved) {
+  const LineTracker tracker = tracker_at_first();
+  const NoiseLine line = tracker.line(kOptions);
+  EXPECT_NEAR(line.cycles, 0.2, kStep);
+  EXPECT_NEAR(line.power, 0.9 * kPower, 0.02 * kPower);
+  EXPECT_NEAR(noise_variance(tracker.rest()) + line.power, 1.0 + kPower, 1e-6);
+}
+
+// The process that the filters get has the line's variance and its frequency.
+TEST(LineTracker, ItsModeHasItsPowerAndFrequency) {
+  const NoiseLine line = tracker_at_first().line(kOptions);
+  NoiseModel alone = white_noise(1.0);
+  alone.colour_order = 2;
+  alone.colour = {line.mode.a[0], line.mode.a[1]};
+  alone.colour_variance = line.mode.drive;
+  EXPECT_NEAR(noise_variance(alone) - 1.0, line.power, 1e-9);
+  const auto at = [&alone](double cycles) {
+    return noise_spectrum(alone, 2.0 * std::numbers::pi * cycles) - 1.0;
+  };
+  EXPECT_NEAR(at(line.cycles + line.half_width) / at(line.cycles), 0.5, 0.02);
+}
+
+TEST(LineTracker, FindsALineThatHasMoved) {
+  for (const double cycles : {0.165, 0.19, 0.2, 0.225, 0.24}) {
+    LineTracker tracker = tracker_at_first();
+    watch(tracker, window_with(line_at(cycles, kPower)), kNoMotion);
+    EXPECT_NEAR(tracker.place().cycles, cycles, kStep);
+    EXPECT_LT(tracker.place().deviation, 2.0 * kStep);
+  }
+}
+
+TEST(LineTracker, FollowsALineThatGoesOnMoving) {
+  LineTracker tracker = tracker_at_first();
+  for (double cycles = 0.2; cycles < 0.23; cycles += 0.001) {
+    watch(tracker, window_with(line_at(cycles, kPower)), kNoMotion, 2.0);
+    EXPECT_NEAR(tracker.place().cycles, cycles, 2.0 * kStep);
+  }
+}
+
+// The fit knew the line elsewhere and has made a mode of it, or has made none: that is the same line.
+TEST(LineTracker, WhatTheFitTookForMotionIsFoundAllTheSame) {
+  const Signal line = line_at(0.225, kPower);
+  LineTracker tracker = tracker_at_first();
+  watch(tracker, window_with(line), line);
+  EXPECT_NEAR(tracker.place().cycles, 0.225, kStep);
+}
+
+// An engine's tone with a quarter of the line's power, in a mode of its own: the line is where its power is.
+TEST(LineTracker, AWeakerToneIsNotTheLine) {
+  const Signal engine = line_at(0.18, 0.25 * kPower);
+  const Signal line = line_at(0.225, kPower);
+  LineTracker tracker = tracker_at_first();
+  watch(tracker, window_with(line, engine), window_with(line, engine));
+  EXPECT_NEAR(tracker.place().cycles, 0.225, 2.0 * kStep);
+}
+
+// A vibration far stronger than the line, which a mode explains, says nothing of the line: it is known no better than before.
+TEST(LineTracker, StrongShakingAllOverSaysNothing) {
+  const Signal shaking(kBins, 300.0);
+  LineTracker tracker = tracker_at_first();
+  const LinePlace before = tracker.place();
+  watch(tracker, window_with(shaking), shaking);
+  EXPECT_NEAR(tracker.place().cycles, before.cycles, kStep);
+  EXPECT_NEAR(tracker.place().deviation, before.deviation, kStep);
+}
+
+// What was taken for the line for a minute is forgotten when it has gone.
+TEST(LineTracker, ForgetsATone) {
+  LineTracker tracker = tracker_at_first();
+  const Signal line = line_at(0.21, kPower);
+  watch(tracker, window_with(line_at(0.18, kPower)), kNoMotion, 8.0);
+  ASSERT_NEAR(tracker.place().cycles, 0.18, kStep);
+  watch(tracker, window_with(line), kNoMotion, 8.0);
+  EXPECT_NEAR(tracker.place().cycles, 0.21, kStep);
+}
+
+TEST(LineTracker, AnotherNoiseIsLookedForAnewAndTheSameIsNot) {
+  LineTracker tracker = tracker_at_first();
+  watch(tracker, window_with(line_at(0.215, kPower)), kNoMotion);
+  const LinePlace known = tracker.place();
+  tracker.believe(noise_with_line(0.2, kPower));
+  EXPECT_EQ(tracker.place().cycles, known.cycles);
+  tracker.believe(noise_with_line(0.202, 1.1 * kPower));  // learned a little more
+  EXPECT_EQ(tracker.place().cycles, known.cycles);
+  EXPECT_NEAR(tracker.line(kOptions).power, 0.9 * 1.1 * kPower, 0.02 * kPower);
+  tracker.believe(noise_with_line(0.1, kPower));
+  EXPECT_NEAR(tracker.place().cycles, 0.1, kStep);
+  tracker.believe(white_noise(1.0));
+  EXPECT_EQ(tracker.line(kOptions).power, 0.0);
+}
+
+TEST(LineTracker, StaysFiniteWhateverItSees) {
+  for (const double value : {0.0, 1e-300, 1e300, std::numeric_limits<double>::infinity()}) {
+    LineTracker tracker = tracker_at_first();
+    watch(tracker, Signal(kBins, value), kNoMotion, 1.0);
+    EXPECT_TRUE(std::isfinite(tracker.place().cycles)) << value;
+    EXPECT_GT(tracker.line(kOptions).mode.drive, 0.0) << value;
+  }
+}
+
+TEST(LineTracker, AllocatesNothing) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
+  const Signal window = window_with(line_at(0.21, kPower));
+  const Signal rest(kBins, 1.0);
+  const auto before = testing::allocations();
+  LineTracker tracker = tracker_at_first();
+  tracker.observe({.periodogram = window,
+                   .rest = rest,
+                   .explained = kNoMotion,
+                   .resolution = 1.0 / kSamples,
+                   .power = kPower,
+                   .share = kShare},
+                  kOptions);
+  EXPECT_EQ(testing::allocations(), before);
+}
+
+}  // namespace
+}  // namespace gyrod::core
