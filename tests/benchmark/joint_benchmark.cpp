@@ -48,33 +48,41 @@ std::span<const double> window(std::size_t index) {
   return std::span(drive()).subspan(index % kWindows * kWindow, kWindow);
 }
 
-/// White noise of the drive's level, or a half of it coloured by an AR(8), as calibrations give it.
-NoiseModel noise(bool coloured) {
+enum class Colour : std::uint8_t { kWhite, kAr8, kLine };
+
+/// White noise of the drive's level, or a half of it coloured by an AR(8), as calibrations give it, or a line of that power.
+NoiseModel noise(Colour colour) {
   double squares = 0.0;
   for (std::size_t t = 2; t < kWindow; ++t) {
     const double second = drive()[t] - 2.0 * drive()[t - 1] + drive()[t - 2];
     squares += second * second / (6.0 * static_cast<double>(kWindow - 2));
   }
   NoiseModel model = core::white_noise(squares);
-  if (!coloured) return model;
+  if (colour == Colour::kWhite) return model;
   model.white_variance = 0.5 * squares;
+  if (colour == Colour::kLine) {
+    model.colour_variance = 0.01 * squares;
+    model.colour_order = 2;
+    model.colour = {0.6, -0.94};
+    return model;
+  }
   model.colour_variance = 0.4 * squares;
   model.colour_order = 8;
   model.colour = {0.25, 0.15, 0.05, 0.05, 0.02, 0.02, 0.01, 0.01};
   return model;
 }
 
-JointModel fitted(std::size_t index, bool coloured) {
+JointModel fitted(std::size_t index, Colour colour) {
   static JointFit fit(kWindow);
   JointModel model;
   core::WindowReport report;
-  fit.fit(window(index), noise(coloured), model, report);
+  fit.fit(window(index), noise(colour), model, report);
   return model;
 }
 
 /// Arguments: members in use, lag.
 void step(benchmark::State& state) {
-  JointModel model = fitted(0, true);
+  JointModel model = fitted(0, Colour::kAr8);
   for (auto i = static_cast<std::size_t>(state.range(0)); i < core::kMembers; ++i)
     model.members[i].usable = false;
   KalmanBank bank({}, static_cast<std::size_t>(state.range(1)));
@@ -89,25 +97,26 @@ void step(benchmark::State& state) {
 BENCHMARK(step)->ArgsProduct({{4, 6, 7}, {0, 16, 32}})->Unit(benchmark::kNanosecond);
 
 void hand_over(benchmark::State& state) {
-  const JointModel model = fitted(0, true);
+  const JointModel model = fitted(0, Colour::kAr8);
   KalmanBank bank({}, 16);
   for (std::size_t t = 0; t < kWindow; ++t) bank.step(drive()[t]);
   for ([[maybe_unused]] auto _ : state) bank.use(model);
 }
 BENCHMARK(hand_over)->Unit(benchmark::kMicrosecond);
 
-/// The slow loop: one window of one axis. Argument: whether the noise has colour.
+/// The slow loop: one window of one axis. Argument: the noise's colour, as Colour has it.
 void fit_window(benchmark::State& state) {
+  const NoiseModel colours = noise(static_cast<Colour>(state.range(0)));
   JointFit fit(kWindow);
   JointModel model;
   core::WindowReport report;
   std::size_t index = 0;
-  for ([[maybe_unused]] auto _ : state) fit.fit(window(index++), noise(state.range(0) != 0), model, report);
+  for ([[maybe_unused]] auto _ : state) fit.fit(window(index++), colours, model, report);
   constexpr double kHopsPerSecond = 100.0 / 32.0;
   state.counters["axes_at_100_Hz"] = benchmark::Counter(
       static_cast<double>(state.iterations()) / kHopsPerSecond, benchmark::Counter::kIsRate);
 }
-BENCHMARK(fit_window)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK(fit_window)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 
 void part_emd(benchmark::State& state) {
   core::Emd emd(kWindow);
@@ -145,7 +154,7 @@ void part_em(benchmark::State& state) {
   std::vector<double> power(tapers.bins());
   tapers.spectrum(window(0), power);
   core::WhittleFit whittle(tapers.transform_samples(), 0.001);
-  whittle.observe(power, noise(true));
+  whittle.observe(power, noise(Colour::kAr8));
   for ([[maybe_unused]] auto _ : state) {
     core::ModeSet set = modes(state.range(0));
     whittle.iterate(set, 20);
@@ -167,7 +176,7 @@ BENCHMARK(part_prune)->Arg(4)->Arg(6)->Unit(benchmark::kMicrosecond);
 
 /// One member. Argument: its kind.
 void part_design(benchmark::State& state) {
-  const JointModel model = fitted(0, true);
+  const JointModel model = fitted(0, Colour::kAr8);
   const BlockSet& blocks = model.members[static_cast<std::size_t>(state.range(0))].blocks;
   core::MemberDesigner designer;
   core::MemberModel member;
@@ -181,7 +190,7 @@ void riccati(benchmark::State& state, EmdKernel kernel) {
     state.SkipWithError("this processor does not run the kernel");
     return;
   }
-  const JointModel model = fitted(0, true);
+  const JointModel model = fitted(0, Colour::kAr8);
   const auto solver = std::make_unique<BlockRiccati>(kernel);
   for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(solver->solve(model.members[0].blocks, 0.5));
