@@ -127,9 +127,10 @@ TEST(JointDrivesPrototype, IsReachedInEveryCell) {
   EXPECT_LT(sum, 0.0);
 }
 
-// A minute at rest is nearly as good as a calibration.
+// A minute at rest is nearly as good as a calibration, also of noise whose line has moved by then; but for imu4 z on 06 x, up to 4.4 % (docs/method.md).
 TEST(JointDrivesLearned, AreWithinThreePercentOfCalibrated) {
-  for (const auto& noise : {noise_of(1, 'x', 0), noise_of(2, 'y', 0), noise_of(4, 'x', 0)}) {
+  for (const auto& noise : {noise_of(1, 'x', 0), noise_of(2, 'y', 0), noise_of(4, 'x', 0),
+                            noise_of(1, 'z', 0), noise_of(2, 'z', 0)}) {
     if (!test::has_drive_rows(noise)) GTEST_SKIP() << "no recordings in " << test::data_folder();
     const Scored& known = scored(noise);
     for (std::size_t k = 0; k < known.rows.size(); ++k) {
