@@ -101,21 +101,13 @@ TEST(WhittleFit, TheTruthIsAFixedPoint) {
   }
 }
 
-/// White noise of variance 1 and a line of variance 2 at 0.2 cycles per sample.
-NoiseModel noise_with_line() {
-  const SpectralMode line = oscillation(0.97, 2.0 * std::numbers::pi * 0.2, 1.0);
-  NoiseModel model = white_noise(1.0);
-  model.colour_order = 2;
-  model.colour = {line.a[0], line.a[1]};
-  model.colour_variance = 2.0 / variance_of(line);
-  return model;
-}
-
 // The reference is noise_spectrum(), by cosines and sines of each multiple; here it is Horner's rule.
 TEST(WhittleFit, TheNoisesSpectrumIsThatOfItsModelAndOfItsLine) {
-  NoiseModel noise = noise_with_line();
+  NoiseModel noise = white_noise(1.0);
   noise.colour_order = kMaxNoiseColour;
-  noise.colour[kMaxNoiseColour - 1] = -0.1;
+  noise.colour = {0.4, -0.3, 0.1, 0.05, -0.02, 0.02, 0.01, -0.05};
+  noise.colour_variance = 0.5;
+  ASSERT_TRUE(is_usable(noise));
   const SpectralMode line = oscillation(0.98, 1.7, 0.02);
   WhittleFit fit(kTransform, 0.0);
   fit.observe(Signal(kBins, 1.0), noise, line);
