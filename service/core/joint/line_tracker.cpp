@@ -102,8 +102,8 @@ void LineTracker::observe(const LineEvidence& window, const LineOptions& options
 /// A walk among the places, and a way back to where they began.
 void LineTracker::spread(double share, const LineOptions& options) noexcept {
   constexpr double kStep = 2.0 * kReach / static_cast<double>(kPlaces - 1);
-  constexpr double kMost = 0.25;  // a third would empty a place
-  const double part = std::min(0.5 * options.drift * options.drift * share / (kStep * kStep), kMost);
+  constexpr double kMostSpread = 0.25;  // a third would empty a place
+  const double part = std::min(0.5 * options.drift * options.drift * share / (kStep * kStep), kMostSpread);
   Places next{};
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double below = weight_[i > 0 ? i - 1 : i];
