@@ -76,7 +76,6 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   if (line_.power > 0.0) notch(centred_, line_.cycles, line_.half_width);
   decompose(report);
   start_line(tone);
-  whittle_.observe(periodogram_, noise_, line_.mode);
   whittle_.iterate(full_, options_.pruned_iterations);
   pruned_ = full_;
   whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
@@ -117,13 +116,13 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
       noise_ = {};
     }
   }
+  if (is_usable(noise_)) whittle_.observe(periodogram_, noise_, line_.mode);
   report.noise_floor = std::sqrt(seen_noise());
 }
 
 /// The tone that stands out most, of the noise where that has a line of its own.
 Tone JointFit::find_motion_tone() noexcept {
   if (line_.power == 0.0) return find_tone(periodogram_, options_.line_prominence);
-  whittle_.observe(periodogram_, noise_, line_.mode);
   const auto noise = whittle_.noise();
   for (std::size_t k = 0; k < noise.size(); ++k) whitened_[k] = periodogram_[k] / noise[k];
   Tone tone = find_tone(whitened_, options_.line_prominence);

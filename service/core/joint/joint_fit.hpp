@@ -20,8 +20,8 @@
 namespace gyrod::core {
 
 /// Bridges knocks (KnockBridge), takes the line of the sensor's noise out (LineTracker) and the window minus its mean apart (EMD), starts a mode
-/// from every IMF that holds more than noise, one from all that is slow and one from a narrow tone, fits their spectra beside the noise's (WhittleFit), and makes the members of the
-/// bank (MemberDesigner).
+/// from every IMF that holds more than noise, one from all that is slow and one from a narrow tone, fits their spectra beside the noise's
+/// (WhittleFit), and makes the members of the bank (MemberDesigner).
 /// Sizes its workspace once; fit() allocates nothing and is a pure function of its input, but for members that cannot be made and keep
 /// what `model` held. One object per worker; not thread-safe.
 /// Source: docs/method.md, "Moving vehicles".

@@ -52,17 +52,20 @@ LineTracker tracker_at_first() {
   return tracker;
 }
 
+LineEvidence evidence(const Signal& window, const Signal& rest, const Signal& explained) {
+  return {.periodogram = window,
+          .rest = rest,
+          .explained = explained,
+          .resolution = 1.0 / kSamples,
+          .power = kPower,
+          .share = kShare};
+}
+
 /// So many windows' times of the same window.
 void watch(LineTracker& tracker, const Signal& window, const Signal& motion, double windows = 10.0) {
   const Signal rest(kBins, 1.0);
   for (double time = 0.0; time < windows; time += kShare) {
-    tracker.observe({.periodogram = window,
-                     .rest = rest,
-                     .explained = motion,
-                     .resolution = 1.0 / kSamples,
-                     .power = kPower,
-                     .share = kShare},
-                    kOptions);
+    tracker.observe(evidence(window, rest, motion), kOptions);
   }
 }
 
@@ -183,13 +186,7 @@ TEST(LineTracker, AllocatesNothing) {
   const Signal rest(kBins, 1.0);
   const auto before = testing::allocations();
   LineTracker tracker = tracker_at_first();
-  tracker.observe({.periodogram = window,
-                   .rest = rest,
-                   .explained = kNoMotion,
-                   .resolution = 1.0 / kSamples,
-                   .power = kPower,
-                   .share = kShare},
-                  kOptions);
+  tracker.observe(evidence(window, rest, kNoMotion), kOptions);
   EXPECT_EQ(testing::allocations(), before);
 }
 
