@@ -92,29 +92,32 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
 }
 
 /// What the noise is taken for: as believed, its level corrected by what the windows so far have shown, and its line where they have shown
-/// it; or, where nothing is believed, white, at the level of the quietest bands, or at what the other axes allow.
+/// it. Where no colour is believed, or nothing is, what the bands show; at most what the other axes allow.
 void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, WindowReport& report) noexcept {
-  const bool known = is_usable(believed);
+  const NoiseBelief belief = belief_in(believed);
+  const bool known = belief != NoiseBelief::kNothing;
   unit_ = known ? noise_variance(believed) : 1.0;
   noise_ = known ? scaled(believed, 1.0 / std::sqrt(unit_)) : white_noise(1.0);
   model.line.believe(noise_);
   line_ = model.line.line(options_.line);
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
-  model.noise.observe(periodogram_, whittle_.noise(), known, new_share());
-  if (known) {
-    const double level = model.noise.level();
-    noise_ = scaled(model.line.rest(), std::sqrt(level));
+  model.noise.observe(periodogram_, whittle_.noise(), believed, new_share());
+  NoiseShape shape = model.noise.shape();
+  if (belief == NoiseBelief::kColour) {
+    noise_ = scaled(model.line.rest(), std::sqrt(shape.level));
     // Quieter windows do not make the line weaker than it is believed to be: it may be all that is as loud as ever.
-    line_.power *= std::max(level, 1.0);
-    line_.mode.drive *= std::max(level, 1.0);
+    line_.power *= std::max(shape.level, 1.0);
+    line_.mode.drive *= std::max(shape.level, 1.0);
   } else {
-    unit_ = std::min(model.noise.floor(), most_noise_);
-    if (is_usable(white_noise(unit_))) {
-      for (double& power : periodogram_) power /= unit_;
-    } else {
-      noise_ = {};
+    if (!known) {
+      unit_ = std::min(shape.level, most_noise_);
+      shape.level = 1.0;
     }
+    noise_ = is_usable(white_noise(unit_)) ? noise_of(shape) : NoiseModel{};
+  }
+  if (!known && is_usable(noise_)) {
+    for (double& power : periodogram_) power /= unit_;
   }
   if (is_usable(noise_)) whittle_.observe(periodogram_, noise_, line_.mode);
   report.noise_floor = std::sqrt(seen_noise());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "core/signal/moments.hpp"
 
@@ -11,6 +13,13 @@ namespace {
 
 /// Windows' lengths that are remembered.
 constexpr double kMemory = 3.0;
+/// Most that a band counts for, in parts of the least that it has shown: the least of many estimates is 0.8 to 0.9 of their mean.
+/// Source: docs/decisions/0007, "Quiet moments".
+constexpr double kRise = 1.15;
+/// What the least grows by in a window's length: noise that has become twice as strong is believed within six minutes, and where it was measured at
+/// rest, within minutes that it is a quarter stronger.
+constexpr double kForgetting = 0.03;
+constexpr double kForgettingMeasured = 0.01;
 /// A band this far above the believed noise holds motion. A level that is 20 % too low (1.56 in power), with a colour unknown to a
 /// quarter, stays below it. Source: docs/method.md, "When the noise is not as believed".
 constexpr double kMotion = 2.0;
@@ -23,57 +32,75 @@ constexpr std::size_t kQuietest = 3;
 /// Beyond these the noise is said to be wrong: the spread of level() on the right noise is 0.9 to 1.3.
 constexpr double kTooQuiet = 0.8;
 constexpr double kTooLoud = 1.4;
-/// Where nothing is believed, bands up to so far above the quietest are noise as well: its colour. Source: docs/decisions/0006.
-constexpr double kSameNoise = 2.5;
-/// Mean of the least of kBands estimates of 1, each with the spread that three windows leave.
-constexpr double kLeastOfBands = 0.93;
 
-}  // namespace
-
-void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise, bool known,
-                           double share) noexcept {
-  assert(periodogram.size() == noise.size() && periodogram.size() > kBands);
-  if (known != known_) *this = {};
-  known_ = known;
-  weight_ = std::min(weight_ + share, kMemory);
-  const double gain = std::min(share / weight_, 1.0);
-  const std::size_t bins = periodogram.size() - 1;
-  for (std::size_t band = 0; band < kBands; ++band) {
-    const std::size_t begin = band * bins / kBands + 1;
-    const std::size_t end = (band + 1) * bins / kBands + 1;
-    double sum = 0.0;
-    for (std::size_t k = begin; k < end; ++k) sum += periodogram[k] / noise[k];
-    ratio_[band] += gain * (sum / static_cast<double>(end - begin) - ratio_[band]);
-  }
-}
-
-double NoiseTracker::level() const noexcept {
-  std::array<double, kBands> sorted = ratio_;
+/// Level of noise whose colour is known.
+double level_of(BandPower sorted) noexcept {
   std::ranges::sort(sorted);
   const auto motion = std::ranges::find_if(sorted, [](double ratio) { return ratio > kMotion; });
   const std::span<const double> quiet{sorted.begin(), motion};
   if (quiet.empty()) return 1.0;
   const double all = mean(quiet);
   if (all <= 1.0) return std::max(all, 1.0 / kMotion);
-  if (2 * quiet.size() <= kBands) return 1.0;
+  if (2 * quiet.size() <= kNoiseBands) return 1.0;
   const double quietest = mean(quiet.first(kQuietest));
   return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest, kQuietestPower)));
 }
 
-double NoiseTracker::floor() const noexcept {
-  const double least = std::ranges::min(ratio_);
-  double sum = 0.0;
-  double count = 0.0;
-  for (const double ratio : ratio_) {
-    if (ratio > kSameNoise * least) continue;
-    sum += ratio;
-    count += 1.0;
+/// The same, where bands were as quiet as `bounded` within memory: that takes from a level above 1, and does not make one below it.
+double level_of(const BandPower& ratio, const BandPower& bounded) noexcept {
+  const double level = level_of(ratio);
+  return level <= 1.0 ? level : std::clamp(level_of(bounded), 1.0, level);
+}
+
+std::span<const double> bins_of(std::span<const double> spectrum, std::size_t band) noexcept {
+  const std::size_t bins = spectrum.size() - 1;
+  const std::size_t begin = band * bins / kNoiseBands + 1;
+  return spectrum.subspan(begin, (band + 1) * bins / kNoiseBands + 1 - begin);
+}
+
+}  // namespace
+
+NoiseBelief belief_in(const NoiseModel& noise) noexcept {
+  if (!is_usable(noise)) return NoiseBelief::kNothing;
+  return noise.colour_order == 0 ? NoiseBelief::kLevel : NoiseBelief::kColour;
+}
+
+void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& believed) noexcept {
+  const double unit = belief_in(believed) == NoiseBelief::kNothing ? 1.0 : noise_variance(believed);
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const double power = unit * mean(bins_of(noise, band));
+    const double factor = weight_ > 0.0 && power > 0.0 ? believed_power_[band] / power : 1.0;
+    ratio_[band] *= factor;
+    least_[band] *= factor;
+    believed_power_[band] = power;
   }
-  return count > 0.0 ? std::max(sum / count, least / kLeastOfBands) : 0.0;
+  believed_ = believed;
+}
+
+void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
+                           const NoiseModel& believed, double share) noexcept {
+  assert(periodogram.size() == noise.size() && periodogram.size() > kBands);
+  if (believed != believed_ || weight_ == 0.0) restate(noise, believed);
+  weight_ = std::min(weight_ + share, kMemory);
+  const double gain = std::min(share / weight_, 1.0);
+  const NoiseBelief belief = belief_in(believed_);
+  const double growth = 1.0 + share * (belief == NoiseBelief::kColour ? kForgettingMeasured : kForgetting);
+  BandPower bounded{};
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const auto seen = bins_of(periodogram, band);
+    const auto expected = bins_of(noise, band);
+    const double sum =
+        std::transform_reduce(seen.begin(), seen.end(), expected.begin(), 0.0, std::plus{}, std::divides{});
+    ratio_[band] += gain * (sum / static_cast<double>(seen.size()) - ratio_[band]);
+    least_[band] = weight_ <= 1.0 ? ratio_[band] : std::min(growth * least_[band], ratio_[band]);
+    bounded[band] = std::min(ratio_[band], kRise * least_[band]);
+  }
+  shape_ = belief == NoiseBelief::kColour ? NoiseShape{.level = level_of(ratio_, bounded)}
+                                          : likely_shape(bounded, belief == NoiseBelief::kLevel);
 }
 
 bool NoiseTracker::disagrees() const noexcept {
-  return known_ && (level() < kTooQuiet || level() > kTooLoud);
+  return belief_in(believed_) != NoiseBelief::kNothing && (level() < kTooQuiet || level() > kTooLoud);
 }
 
 }  // namespace gyrod::core

@@ -1,13 +1,24 @@
 /// Watches whether a channel's noise is what it is believed to be, and corrects it within bounds.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
+#include "core/joint/noise_shape.hpp"
 #include "core/noise/noise_model.hpp"
 
 namespace gyrod::core {
+
+/// What is believed of a channel's noise.
+enum class NoiseBelief : std::uint8_t {
+  kNothing,  ///< a unit only
+  kLevel,    ///< how strong it is, as a data sheet says; of its colour nothing
+  kColour,   ///< both: it was measured at rest
+};
+
+/// @return kNothing for a model that is not usable, kLevel for white noise
+[[nodiscard]] NoiseBelief belief_in(const NoiseModel& noise) noexcept;
 
 /// Per band of equal width between 0 and half the sample rate, the mean of I / R over the bins and over about the last three windows'
 /// length: the observed power in parts of the noise's. Where there is nothing but noise, that is 1. A band far above is motion and
@@ -15,30 +26,35 @@ namespace gyrod::core {
 /// A plain value; allocates nothing.
 class NoiseTracker {
  public:
-  static constexpr std::size_t kBands = 8;
+  static constexpr std::size_t kBands = kNoiseBands;
 
   /// Takes the periodogram of a window and the noise's spectrum at the same frequencies, in the same unit.
+  /// @param believed the channel's noise in the data's unit; `noise` is its spectrum at variance 1, or 1 where nothing is believed. Where that has
+  ///   changed, what is remembered is restated
   /// @param share how much of a window is new since the last one, 0..1: hop / window
-  /// @param known whether `noise` is believed, or only a unit; what was remembered of the other kind is forgotten
-  void observe(std::span<const double> periodogram, std::span<const double> noise, bool known,
+  void observe(std::span<const double> periodogram, std::span<const double> noise, const NoiseModel& believed,
                double share) noexcept;
 
-  /// Power of the noise in parts of the believed one, from the bands that do not hold motion: their mean where that is below 1, at
-  /// least one half. Above 1 the smaller of mean^1.5 and (mean of the quietest three)^6, and at least 1. Not above 1 where half of
-  /// the bands hold motion: on a rough road every band holds some.
-  [[nodiscard]] double level() const noexcept;
-
-  /// Mean power of the bands that are as quiet as the quietest, within 2.5 of it; at least the quietest's, raised by what the least of
-  /// kBands estimates lies below their mean.
-  [[nodiscard]] double floor() const noexcept;
+  /// Power of the noise in parts of the believed one, and its tilt where no colour is believed (likely_shape()).
+  /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1, at least one half. Above 1 the smaller of
+  /// mean^1.5 and (mean of the quietest three)^6, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
+  /// some; and, as motion comes and goes while noise stays, for more than 1.15 times the least that it has shown no band counts. That is forgotten by a
+  /// hundredth a window's length. 1 and white before anything was observed.
+  [[nodiscard]] const NoiseShape& shape() const noexcept { return shape_; }
+  [[nodiscard]] double level() const noexcept { return shape_.level; }
 
   /// True where the level is so far from 1 that the believed noise is wrong.
   [[nodiscard]] bool disagrees() const noexcept;
 
  private:
-  std::array<double, kBands> ratio_{};
+  void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
+
+  NoiseModel believed_;
+  BandPower believed_power_{};  ///< of the bands, in the data's unit squared
+  BandPower ratio_{};
+  BandPower least_{};    ///< that ratio_ was of late
   double weight_ = 0.0;  ///< of what was observed, in windows
-  bool known_ = false;
+  NoiseShape shape_;
 };
 
 }  // namespace gyrod::core

@@ -43,10 +43,13 @@ const Scored& scored(const test::NoiseChoice& noise) {
   return result;
 }
 
-/// A level that is wrong, and no colour.
+/// A level that is wrong, and no colour; or nothing at all.
 NoiseModel believed_white(const test::DriveRow& row, double level) {
+  if (level < 0.0) return {};
   return scaled(white_noise(noise_variance(still_noise(row.still_dps).value())), level);
 }
+
+constexpr double kNothing = -1.0;
 
 struct Setting {
   const char* name;
@@ -54,13 +57,14 @@ struct Setting {
   /// RMSE of every cell, in parts of the tuned Butterworth's. 1: ahead. Above 1: what the design allows, or what docs/method.md says
   /// is not reached, rounded up to a whole per cent.
   double most = 1.0;
-  double white_level = 0.0;  ///< 0: calibrated; else believed white, at this part of its level
+  /// 0: calibrated; kNothing: nothing is believed; else believed white, at this part of its level
+  double white_level = 0.0;
   double rate_hz = 120.0;
   std::size_t window = 1024;
   std::string axes = "xyz";
 
   /// From what scored() has.
-  [[nodiscard]] bool differs() const { return white_level > 0.0 || rate_hz != 120.0 || window != 1024; }
+  [[nodiscard]] bool differs() const { return white_level != 0.0 || rate_hz != 120.0 || window != 1024; }
 };
 
 std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
@@ -79,7 +83,7 @@ TEST_P(JointDrives, AreAheadOfTheButterworthTunedOnTheirTruth) {
     test::ByLag ours = known.figures[k].rmse;
     if (setting.differs()) {
       const NoiseModel noise =
-          setting.white_level > 0.0 ? believed_white(row, setting.white_level) : calibrated(row);
+          setting.white_level != 0.0 ? believed_white(row, setting.white_level) : calibrated(row);
       test::resample(row, setting.rate_hz);
       ours = test::joint_figures(row, noise, on).rmse;
     }
@@ -90,23 +94,26 @@ TEST_P(JointDrives, AreAheadOfTheButterworthTunedOnTheirTruth) {
 }
 
 // Not ahead: 09 z under 0.12 deg/s of imu1 z, whose line is an eighth from where it was calibrated; z under 0.35 and 1.05 deg/s, where a window is short; and where
-// the level is wrong, for which the design allows 10 %.
+// the colour is unknown and the level wrong, for which the design allows 10 %.
 INSTANTIATE_TEST_SUITE_P(
     Settings, JointDrives,
-    testing::Values(Setting{"imu1_x", noise_of(1, 'x', 0)},
-                    Setting{"imu1_x_from_500000", noise_of(1, 'x', 500'000)},
-                    Setting{"imu2_y", noise_of(2, 'y', 0)},
-                    Setting{"imu2_y_from_200000", noise_of(2, 'y', 200'000)},
-                    Setting{"imu4_x", noise_of(4, 'x', 0)}, Setting{"imu4_z", noise_of(4, 'z', 0)},
-                    Setting{"imu4_z_from_200000", noise_of(4, 'z', 200'000)},
-                    Setting{"imu1_z", noise_of(1, 'z', 0), 1.01}, Setting{"imu2_z", noise_of(2, 'z', 0)},
-                    Setting{"level_20_percent_low", noise_of(1, 'x', 0), 1.10, 0.8},
-                    Setting{"level_20_percent_high", noise_of(1, 'x', 0), 1.10, 1.2},
-                    Setting{"at_50_Hz", noise_of(1, 'x', 0), 1.0, 0.0, 50.0},
-                    Setting{"at_200_Hz_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 200.0, 1024, "z"},
-                    Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.02, 0.0, 400.0, 1024, "z"},
-                    Setting{"window_512", noise_of(1, 'x', 0), 1.01, 0.0, 120.0, 512},
-                    Setting{"window_2048", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 2048}),
+    testing::Values(
+        Setting{"imu1_x", noise_of(1, 'x', 0)}, Setting{"imu1_x_from_500000", noise_of(1, 'x', 500'000)},
+        Setting{"imu2_y", noise_of(2, 'y', 0)}, Setting{"imu2_y_from_200000", noise_of(2, 'y', 200'000)},
+        Setting{"imu4_x", noise_of(4, 'x', 0)}, Setting{"imu4_z", noise_of(4, 'z', 0)},
+        Setting{"imu4_z_from_200000", noise_of(4, 'z', 200'000)},
+        Setting{"imu1_z", noise_of(1, 'z', 0), 1.01}, Setting{"imu2_z", noise_of(2, 'z', 0)},
+        Setting{"level_20_percent_low", noise_of(1, 'x', 0), 1.01, 0.8},
+        Setting{"level_20_percent_high", noise_of(1, 'x', 0), 1.02, 1.2},
+        Setting{"level_20_percent_low_of_imu4_x", noise_of(4, 'x', 0), 1.01, 0.8},
+        Setting{"level_20_percent_low_of_imu2_y", noise_of(2, 'y', 200'000), 1.02, 0.8, 120.0, 1024, "z"},
+        Setting{"nothing_known", noise_of(1, 'x', 0), 1.02, kNothing},
+        Setting{"nothing_known_of_imu4_x", noise_of(4, 'x', 0), 1.01, kNothing, 120.0, 1024, "z"},
+        Setting{"at_50_Hz", noise_of(1, 'x', 0), 1.0, 0.0, 50.0},
+        Setting{"at_200_Hz_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 200.0, 1024, "z"},
+        Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.02, 0.0, 400.0, 1024, "z"},
+        Setting{"window_512", noise_of(1, 'x', 0), 1.01, 0.0, 120.0, 512},
+        Setting{"window_2048", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 2048}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // The design's table, the rows of which were its un-tuned prototype's: no cell more than 3 % behind, and ahead in the mean.
@@ -127,7 +134,7 @@ TEST(JointDrivesPrototype, IsReachedInEveryCell) {
   EXPECT_LT(sum, 0.0);
 }
 
-// A minute at rest is nearly as good as a calibration, also of noise whose line has moved by then; but for imu4 z on 06 x, up to 4.4 % (docs/method.md).
+// A minute at rest is nearly as good as a calibration, also of noise whose line has moved by then; but for imu4 z on 06 x, up to 3.2 % (docs/method.md).
 TEST(JointDrivesLearned, AreWithinThreePercentOfCalibrated) {
   for (const auto& noise : {noise_of(1, 'x', 0), noise_of(2, 'y', 0), noise_of(4, 'x', 0),
                             noise_of(1, 'z', 0), noise_of(2, 'z', 0)}) {

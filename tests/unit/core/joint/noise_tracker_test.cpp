@@ -1,6 +1,7 @@
 #include "core/joint/noise_tracker.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,10 +21,30 @@ Spectrum spectrum(double power, double motion = 0.0, std::size_t bands = 0) {
   return bins;
 }
 
-NoiseTracker watched(const Spectrum& power, bool known = true, int windows = 1) {
+/// Noise whose colour is believed, too.
+NoiseModel coloured(double level = 1.0) {
+  NoiseModel noise = white_noise(0.5 * level);
+  noise.colour_order = 1;
+  noise.colour[0] = 0.1;
+  noise.colour_variance = 0.5 * level;
+  return noise;
+}
+
+void watch(NoiseTracker& tracker, const Spectrum& power, int windows,
+           const NoiseModel& believed = coloured()) {
+  for (int i = 0; i < windows; ++i) tracker.observe(power, Spectrum(kBins, 1.0), believed, kShare);
+}
+
+NoiseTracker watched(const Spectrum& power, const NoiseModel& believed = coloured()) {
   NoiseTracker tracker;
-  for (int i = 0; i < windows; ++i) tracker.observe(power, Spectrum(kBins, 1.0), known, kShare);
+  watch(tracker, power, 1, believed);
   return tracker;
+}
+
+TEST(NoiseTracker, TellsWhatIsBelieved) {
+  EXPECT_EQ(belief_in({}), NoiseBelief::kNothing);
+  EXPECT_EQ(belief_in(white_noise(0.1)), NoiseBelief::kLevel);
+  EXPECT_EQ(belief_in(coloured()), NoiseBelief::kColour);
 }
 
 TEST(NoiseTracker, SaysOneWhereTheNoiseIsAsBelieved) {
@@ -58,29 +79,56 @@ TEST(NoiseTracker, FollowsNoFurtherThanToOneHalf) { EXPECT_DOUBLE_EQ(watched(spe
 
 TEST(NoiseTracker, ForgetsWithinSomeWindowsLengths) {
   // A memory of three windows' lengths: after nine more (288 of 32 a window) e^-3 of the old is left.
-  NoiseTracker tracker = watched(spectrum(1.5), true, 200);
-  for (int i = 0; i < 288; ++i) tracker.observe(spectrum(1.0), Spectrum(kBins, 1.0), true, kShare);
-  EXPECT_NEAR(tracker.level(), 1.0, 1.5 * 0.5 * 0.06);
-  EXPECT_GT(tracker.level(), 1.0);
+  NoiseTracker tracker;
+  watch(tracker, spectrum(0.6), 200);
+  watch(tracker, spectrum(1.0), 288);
+  EXPECT_NEAR(tracker.level(), 1.0, 0.4 * 0.06);
+  EXPECT_LT(tracker.level(), 1.0);
 }
 
-TEST(NoiseTracker, TakesTheQuietestBandWhereNothingIsKnown) {
-  const NoiseTracker tracker = watched(spectrum(4.0, 100.0, 7), false);
-  EXPECT_NEAR(tracker.floor(), 4.0 / 0.93, 1e-9);
+// A road that shakes every band by half as much as the noise, for a minute and more, after a quiet moment.
+TEST(NoiseTracker, RemembersHowQuietItHasBeen) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(1.0), 96);
+  watch(tracker, spectrum(1.5), 160);
+  EXPECT_LE(tracker.level(), std::pow(1.15 * std::exp(0.05), 1.5));
+  EXPECT_GE(tracker.level(), std::pow(1.15, 1.5));
   EXPECT_FALSE(tracker.disagrees());
 }
 
-TEST(NoiseTracker, TakesTheMeanOfTheQuietBandsWhereNothingIsKnown) {
-  // Noise of 4 but for one band of 3, its colour, and one of 100, motion.
-  Spectrum power = spectrum(4.0, 100.0, 1);
-  for (std::size_t k = 7 * (kBins - 1) / 8 + 1; k < kBins; ++k) power[k] = 3.0;
-  EXPECT_NEAR(watched(power, false).floor(), (6.0 * 4.0 + 3.0) / 7.0, 0.05);
+TEST(NoiseTracker, BelievesNoiseThatStaysStronger) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(1.0), 96);
+  watch(tracker, spectrum(1.5), 32 * 60);
+  EXPECT_NEAR(tracker.level(), std::pow(1.5, 1.5), 1e-6);
+  EXPECT_TRUE(tracker.disagrees());
 }
 
-TEST(NoiseTracker, BeginsAnewWhereTheNoiseBecomesKnown) {
-  NoiseTracker tracker = watched(spectrum(1.5), false, 100);
-  tracker.observe(spectrum(1.0), Spectrum(kBins, 1.0), true, kShare);
-  EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
+// The sensor is as it was; half as much noise is believed from now on.
+TEST(NoiseTracker, RestatesWhatItKnowsWhereAnotherModelIsBelieved) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(0.7), 96, coloured(2.0));
+  watch(tracker, spectrum(1.4), 1, coloured(1.0));
+  EXPECT_NEAR(tracker.level(), std::pow(1.4, 1.5), 1e-9);
+  watch(tracker, spectrum(1.4), 1, {});
+  EXPECT_NEAR(tracker.level(), 1.4, 0.02);
+}
+
+TEST(NoiseTracker, FindsTheColourWhereOnlyALevelIsBelieved) {
+  Spectrum power(kBins);
+  const NoiseModel noise = noise_of({.level = 1.5625, .tilt = 0.7});
+  for (std::size_t k = 0; k < kBins; ++k)
+    power[k] = noise_spectrum(noise, std::numbers::pi * static_cast<double>(k) / (kBins - 1));
+  const NoiseTracker tracker = watched(power, white_noise(1.0));
+  EXPECT_NEAR(tracker.shape().level, 1.5625, 0.05);
+  EXPECT_NEAR(tracker.shape().tilt, 0.7, 0.07);
+  EXPECT_TRUE(tracker.disagrees());
+}
+
+TEST(NoiseTracker, TakesTheQuietBandsWhereNothingIsKnown) {
+  const NoiseTracker tracker = watched(spectrum(4.0, 100.0, 2), {});
+  EXPECT_NEAR(tracker.level(), 4.0, 0.4);
+  EXPECT_FALSE(tracker.disagrees());
 }
 
 }  // namespace

@@ -1,0 +1,103 @@
+#include "core/joint/noise_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace gyrod::core {
+namespace {
+
+constexpr double kColourPole = 0.25;
+/// Of ln(power / noise's) where there is noise alone: of three windows, and what the shape misses.
+constexpr double kBandDeviation = 0.1;
+/// Share of bands that hold motion, and the mean of ln(power / noise's) there.
+constexpr double kMotionBands = 0.4;
+constexpr double kMotionExcess = 0.6;
+/// Of ln(level), where it is believed.
+constexpr double kBelievedDeviation = 0.3;
+constexpr double kMeanTilt = 0.3;
+/// However far a band lies below the noise, that is no more unlikely.
+constexpr double kLeastLogLikelihood = -70.0;
+
+constexpr std::size_t kTilts = 10;
+constexpr double kTiltStep = 0.1;
+constexpr std::size_t kLevels = 51;
+constexpr double kLeastLevel = -1.0;
+constexpr double kLevelStep = 0.05;
+
+using Tilts = std::array<BandPower, kTilts>;
+
+/// ln of the mean, over each band, of a shape's spectrum at level 1. That of the AR(1) process, (1 - c^2) / (1 + c^2 - 2 c cos w), has the
+/// integral 2 atan(tan(w / 2) (1 + c) / (1 - c)).
+Tilts log_shapes() noexcept {
+  const auto integral = [](std::size_t band) {
+    const double half_angle = 0.5 * std::numbers::pi * static_cast<double>(band) / kNoiseBands;
+    return band == kNoiseBands
+               ? std::numbers::pi
+               : 2.0 * std::atan(std::tan(half_angle) * (1.0 + kColourPole) / (1.0 - kColourPole));
+  };
+  Tilts shapes{};
+  for (std::size_t band = 0; band < kNoiseBands; ++band) {
+    const double coloured = (integral(band + 1) - integral(band)) * kNoiseBands / std::numbers::pi;
+    for (std::size_t i = 0; i < kTilts; ++i)
+      shapes[i][band] = std::log(std::lerp(1.0, coloured, kTiltStep * static_cast<double>(i)));
+  }
+  return shapes;
+}
+
+/// @param excess ln(power / noise's)
+double log_likelihood(double excess) noexcept {
+  static const double alone = (1.0 - kMotionBands) / (kBandDeviation * std::sqrt(2.0 * std::numbers::pi));
+  constexpr double kMoving = kMotionBands / kMotionExcess;
+  static const double log_moving = std::log(kMoving);
+  static const double at_zero = std::log(alone + kMoving);
+  const double deviations = excess / kBandDeviation;
+  const double log_normal = -0.5 * deviations * deviations;
+  if (excess <= 0.0) return std::max(at_zero + log_normal, kLeastLogLikelihood);
+  if (deviations > 8.0) return log_moving - excess / kMotionExcess;
+  return std::log(alone * std::exp(log_normal) + kMoving * std::exp(-excess / kMotionExcess));
+}
+
+}  // namespace
+
+NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
+  static const Tilts shapes = log_shapes();
+  const double unit = known ? 1.0 : std::ranges::min(power);
+  if (!(unit > 0.0)) return {.level = 0.0};
+  BandPower log_power{};
+  for (std::size_t band = 0; band < kNoiseBands; ++band)
+    log_power[band] = std::log(std::clamp(power[band] / unit, std::numeric_limits<double>::min(),
+                                          std::numeric_limits<double>::max()));
+  std::array<double, kTilts * kLevels> posterior{};
+  for (std::size_t i = 0; i < posterior.size(); ++i) {
+    const BandPower& shape = shapes[i / kLevels];
+    const double level = kLeastLevel + kLevelStep * static_cast<double>(i % kLevels);
+    const double away = known ? level / kBelievedDeviation : 0.0;
+    posterior[i] = -kTiltStep * static_cast<double>(i / kLevels) / kMeanTilt - 0.5 * away * away;
+    for (std::size_t band = 0; band < kNoiseBands; ++band)
+      posterior[i] += log_likelihood(log_power[band] - level - shape[band]);
+  }
+  const double most = std::ranges::max(posterior);
+  double sum = 0.0;
+  double level = 0.0;
+  double tilt = 0.0;
+  for (std::size_t i = 0; i < posterior.size(); ++i) {
+    const double weight = std::exp(posterior[i] - most);
+    sum += weight;
+    level += weight * (kLeastLevel + kLevelStep * static_cast<double>(i % kLevels));
+    tilt += weight * kTiltStep * static_cast<double>(i / kLevels);
+  }
+  return {.level = unit * std::exp(level / sum), .tilt = tilt / sum};
+}
+
+NoiseModel noise_of(const NoiseShape& shape) noexcept {
+  NoiseModel noise = white_noise(shape.level * (1.0 - shape.tilt));
+  if (shape.tilt <= 0.0) return noise;
+  noise.colour_variance = shape.level * shape.tilt * (1.0 - kColourPole * kColourPole);
+  noise.colour_order = 1;
+  noise.colour[0] = kColourPole;
+  return noise;
+}
+
+}  // namespace gyrod::core
