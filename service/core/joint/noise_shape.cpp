@@ -46,6 +46,16 @@ Tilts log_shapes() noexcept {
   return shapes;
 }
 
+/// ln(level) and tilt of point i of the grid.
+double log_level_at(std::size_t i) noexcept {
+  const std::size_t step = i % kLevels;
+  return kLeastLevel + kLevelStep * static_cast<double>(step);
+}
+double tilt_at(std::size_t i) noexcept {
+  const std::size_t step = i / kLevels;
+  return kTiltStep * static_cast<double>(step);
+}
+
 /// @param excess ln(power / noise's)
 double log_likelihood(double excess) noexcept {
   static const double alone = (1.0 - kMotionBands) / (kBandDeviation * std::sqrt(2.0 * std::numbers::pi));
@@ -58,6 +68,9 @@ double log_likelihood(double excess) noexcept {
   if (deviations > 8.0) return log_moving - excess / kMotionExcess;
   return std::log(alone * std::exp(log_normal) + kMoving * std::exp(-excess / kMotionExcess));
 }
+
+/// To 24 bits: exp and log of another processor's library may differ in the last bit, and results should not.
+double rounded(double value) noexcept { return static_cast<double>(static_cast<float>(value)); }
 
 }  // namespace
 
@@ -72,9 +85,9 @@ NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
   std::array<double, kTilts * kLevels> posterior{};
   for (std::size_t i = 0; i < posterior.size(); ++i) {
     const BandPower& shape = shapes[i / kLevels];
-    const double level = kLeastLevel + kLevelStep * static_cast<double>(i % kLevels);
+    const double level = log_level_at(i);
     const double away = known ? level / kBelievedDeviation : 0.0;
-    posterior[i] = -kTiltStep * static_cast<double>(i / kLevels) / kMeanTilt - 0.5 * away * away;
+    posterior[i] = -tilt_at(i) / kMeanTilt - 0.5 * away * away;
     for (std::size_t band = 0; band < kNoiseBands; ++band)
       posterior[i] += log_likelihood(log_power[band] - level - shape[band]);
   }
@@ -85,10 +98,10 @@ NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
   for (std::size_t i = 0; i < posterior.size(); ++i) {
     const double weight = std::exp(posterior[i] - most);
     sum += weight;
-    level += weight * (kLeastLevel + kLevelStep * static_cast<double>(i % kLevels));
-    tilt += weight * kTiltStep * static_cast<double>(i / kLevels);
+    level += weight * log_level_at(i);
+    tilt += weight * tilt_at(i);
   }
-  return {.level = unit * std::exp(level / sum), .tilt = tilt / sum};
+  return {.level = unit * rounded(std::exp(level / sum)), .tilt = rounded(tilt / sum)};
 }
 
 NoiseModel noise_of(const NoiseShape& shape) noexcept {
