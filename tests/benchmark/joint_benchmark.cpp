@@ -13,6 +13,7 @@
 #include "core/joint/block_riccati.hpp"
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
+#include "core/joint/noise_shape.hpp"
 #include "core/simulation/simulated_gyro.hpp"
 
 namespace gyrod {
@@ -117,6 +118,16 @@ void fit_window(benchmark::State& state) {
       static_cast<double>(state.iterations()) / kHopsPerSecond, benchmark::Counter::kIsRate);
 }
 BENCHMARK(fit_window)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+
+/// Level and tilt of noise of which no colour is believed. The bands are those of a road that shakes the slow ones.
+void part_noise_shape(benchmark::State& state) {
+  core::BandPower power{900.0, 20.0, 5.0, 2.1, 1.6, 1.4, 1.1, 0.9};
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(power);
+    benchmark::DoNotOptimize(core::likely_shape(power, true));
+  }
+}
+BENCHMARK(part_noise_shape)->Unit(benchmark::kMicrosecond);
 
 void part_emd(benchmark::State& state) {
   core::Emd emd(kWindow);
