@@ -103,21 +103,18 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
   model.noise.observe(periodogram_, whittle_.noise(), believed, new_share());
-  NoiseShape shape = model.noise.shape();
+  const NoiseShape& shape = model.noise.shape();
   if (belief == NoiseBelief::kColour) {
     noise_ = scaled(model.line.rest(), std::sqrt(shape.level));
     // Quieter windows do not make the line weaker than it is believed to be: it may be all that is as loud as ever.
     line_.power *= std::max(shape.level, 1.0);
     line_.mode.drive *= std::max(shape.level, 1.0);
+  } else if (known) {
+    noise_ = noise_of(shape);
   } else {
-    if (!known) {
-      unit_ = std::min(shape.level, most_noise_);
-      shape.level = 1.0;
-    }
-    noise_ = is_usable(white_noise(unit_)) ? noise_of(shape) : NoiseModel{};
-  }
-  if (!known && is_usable(noise_)) {
-    for (double& power : periodogram_) power /= unit_;
+    unit_ = std::min(shape.level, most_noise_);
+    noise_ = is_usable(white_noise(unit_)) ? noise_of({.level = 1.0, .tilt = shape.tilt}) : NoiseModel{};
+    for (double& power : periodogram_) power /= is_usable(noise_) ? unit_ : 1.0;
   }
   if (is_usable(noise_)) whittle_.observe(periodogram_, noise_, line_.mode);
   report.noise_floor = std::sqrt(seen_noise());

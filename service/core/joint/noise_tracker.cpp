@@ -20,7 +20,7 @@ constexpr double kRise = 1.15;
 /// rest, within minutes that it is a quarter stronger.
 constexpr double kForgetting = 0.03;
 constexpr double kForgettingMeasured = 0.01;
-/// A band this far above the believed noise holds motion. A level that is 20 % too low (1.56 in power), with a colour unknown to a
+/// A band this far above noise of a believed colour holds motion. A level that is 20 % too low (1.56 in power), with a colour that is off by a
 /// quarter, stays below it. Source: docs/method.md, "When the noise is not as believed".
 constexpr double kMotion = 2.0;
 /// Above the believed level, what the bands show is raised to these powers, their mean and the mean of the quietest three, and the smaller
@@ -67,7 +67,7 @@ NoiseBelief belief_in(const NoiseModel& noise) noexcept {
 
 void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& believed) noexcept {
   const double unit = belief_in(believed) == NoiseBelief::kNothing ? 1.0 : noise_variance(believed);
-  for (std::size_t band = 0; band < kBands; ++band) {
+  for (std::size_t band = 0; band < kNoiseBands; ++band) {
     const double power = unit * mean(bins_of(noise, band));
     const double factor = weight_ > 0.0 && power > 0.0 ? believed_power_[band] / power : 1.0;
     ratio_[band] *= factor;
@@ -79,14 +79,14 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
 
 void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
                            const NoiseModel& believed, double share) noexcept {
-  assert(periodogram.size() == noise.size() && periodogram.size() > kBands);
+  assert(periodogram.size() == noise.size() && periodogram.size() > kNoiseBands);
   if (believed != believed_ || weight_ == 0.0) restate(noise, believed);
   weight_ = std::min(weight_ + share, kMemory);
   const double gain = std::min(share / weight_, 1.0);
   const NoiseBelief belief = belief_in(believed_);
   const double growth = 1.0 + share * (belief == NoiseBelief::kColour ? kForgettingMeasured : kForgetting);
   BandPower bounded{};
-  for (std::size_t band = 0; band < kBands; ++band) {
+  for (std::size_t band = 0; band < kNoiseBands; ++band) {
     const auto seen = bins_of(periodogram, band);
     const auto expected = bins_of(noise, band);
     const double sum =

@@ -26,8 +26,6 @@ enum class NoiseBelief : std::uint8_t {
 /// A plain value; allocates nothing.
 class NoiseTracker {
  public:
-  static constexpr std::size_t kBands = kNoiseBands;
-
   /// Takes the periodogram of a window and the noise's spectrum at the same frequencies, in the same unit.
   /// @param believed the channel's noise in the data's unit; `noise` is its spectrum at variance 1, or 1 where nothing is believed. Where that has
   ///   changed, what is remembered is restated

@@ -16,7 +16,7 @@ using Spectrum = std::vector<double>;
 /// `power` everywhere, but `motion` in the first bands.
 Spectrum spectrum(double power, double motion = 0.0, std::size_t bands = 0) {
   Spectrum bins(kBins, power);
-  const std::size_t end = bands * (kBins - 1) / NoiseTracker::kBands + 1;
+  const std::size_t end = bands * (kBins - 1) / kNoiseBands + 1;
   for (std::size_t k = 0; bands > 0 && k < end; ++k) bins[k] += motion;
   return bins;
 }
