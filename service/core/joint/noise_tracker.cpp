@@ -81,6 +81,10 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
                            const NoiseModel& believed, double share) noexcept {
   assert(periodogram.size() == noise.size() && periodogram.size() > kNoiseBands);
   if (believed != believed_ || weight_ == 0.0) restate(noise, believed);
+  if (!std::ranges::all_of(ratio_, [](double ratio) { return std::isfinite(ratio); })) {
+    *this = {};
+    restate(noise, believed);
+  }
   weight_ = std::min(weight_ + share, kMemory);
   const double gain = std::min(share / weight_, 1.0);
   const NoiseBelief belief = belief_in(believed_);

@@ -114,6 +114,17 @@ TEST(NoiseTracker, RestatesWhatItKnowsWhereAnotherModelIsBelieved) {
   EXPECT_NEAR(tracker.level(), 1.4, 0.02);
 }
 
+// Numbers that overflow are forgotten with the next window.
+TEST(NoiseTracker, IsWellAgainAfterWhatIsNotFinite) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(1.0), 10, coloured(1e300));
+  watch(tracker, spectrum(1.0), 1, coloured(1e-300));
+  EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
+  watch(tracker, spectrum(1e308), 1, coloured(1e-300));
+  watch(tracker, spectrum(0.7), 200, coloured(1e-300));
+  EXPECT_NEAR(tracker.level(), 0.7, 0.1);
+}
+
 TEST(NoiseTracker, FindsTheColourWhereOnlyALevelIsBelieved) {
   Spectrum power(kBins);
   const NoiseModel noise = noise_of({.level = 1.5625, .tilt = 0.7});
