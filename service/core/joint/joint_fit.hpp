@@ -46,7 +46,7 @@ class JointFit {
   void set_most_noise(double variance) noexcept { most_noise_ = variance; }
 
   /// @param window uniformly sampled, finite, any unit
-  /// @param noise  the channel's noise; where it is not usable, white noise of the quietest bands' level is taken
+  /// @param noise  the channel's noise; where it is not usable, or of its colour nothing is believed, what NoiseTracker makes of the bands is taken
   /// @param model  receives the members; untouched where the window does not vary
   /// @param report receives mean, noise floor and the IMFs' figures
   /// @pre kMinSamples <= window.size() <= max_samples
