@@ -104,6 +104,16 @@ TEST(NoiseTracker, BelievesNoiseThatStaysStronger) {
   EXPECT_TRUE(tracker.disagrees());
 }
 
+// Of which nothing is known, and which has become twice as strong: 4 / 1.15 = 1.03^42.
+TEST(NoiseTracker, BelievesUnknownNoiseThatDoublesWithinFortyWindows) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(1.0), 96, {});
+  watch(tracker, spectrum(4.0), 32 * 20, {});
+  EXPECT_LT(tracker.level(), 2.5);
+  watch(tracker, spectrum(4.0), 32 * 22, {});
+  EXPECT_NEAR(tracker.level(), 4.0, 0.1);
+}
+
 // The sensor is as it was; half as much noise is believed from now on.
 TEST(NoiseTracker, RestatesWhatItKnowsWhereAnotherModelIsBelieved) {
   NoiseTracker tracker;
