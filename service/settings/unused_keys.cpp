@@ -31,8 +31,15 @@ std::vector<std::string> unused_keys(const Settings& settings) {
     lines.push_back(std::string(key) + " is " + value.dump() + ", which is for denoise.method \"" +
                     (is_joint ? "paper" : "joint") + "\"; it is \"" + (is_joint ? "joint" : "paper") + "\"");
   };
+  const double nyquist_hz = 0.5 * settings.engine.sample_rate_hz;
+  const double max_signal_hz = settings.denoise.max_signal_hz;
   if (is_joint) {
     std::ranges::for_each(kOfPaper, note);
+    if (nyquist_hz > 0.0 && max_signal_hz >= nyquist_hz) {
+      lines.push_back("denoise.max_signal_hz is " + json(max_signal_hz).dump() +
+                      "; at a denoise.sample_rate_hz of " + json(settings.engine.sample_rate_hz).dump() +
+                      " there is nothing above " + json(nyquist_hz).dump() + " Hz");
+    }
   } else {
     std::ranges::for_each(kOfJoint, note);
   }

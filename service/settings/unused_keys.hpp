@@ -9,8 +9,8 @@
 namespace gyrod::settings {
 
 /// A daemon with these settings has no use for these keys, though they are set to something else than their default: they belong to
-/// the other denoise.method. One line each: the key, and which method it is for. Not an error: the offline commands of a method use
-/// them whatever the daemon's is.
+/// the other denoise.method, or name a signal band that holds all there is. One line each: the key, its value, and why. Not an error: the
+/// offline commands of a method use them whatever the daemon's is.
 [[nodiscard]] std::vector<std::string> unused_keys(const Settings& settings);
 
 }  // namespace gyrod::settings

@@ -56,19 +56,19 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
                          BankEstimate& answer) noexcept {
   correction.step *= options_.hand_over_memory;
   answer.rate += correction.step;
-  const double noise = model_.noise_variance * unit_;
-  const Trust trust = noise > 0.0 ? Trust{.now = answer.variance / noise,
-                                          .expected = expected_variance(lag) / noise,
-                                          .settled = expected_variance(kMaxLag) / noise,
-                                          .moving = moving_}
-                                  : Trust{};
+  const double unwanted = (model_.noise_variance + model_.beyond_band_variance) * unit_;
+  const Trust trust = unwanted > 0.0 ? Trust{.now = answer.variance / unwanted,
+                                             .expected = expected_variance(lag) / unwanted,
+                                             .settled = expected_variance(kMaxLag) / unwanted,
+                                             .moving = moving_}
+                                     : Trust{};
   answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_, options_);
   std::array<double, kMaxLag> newer{};
   for (std::size_t k = 0; k < lag; ++k) newer[k] = residuals_[(count_ - lag + k) % kRing];
   if (lag == 0) residuals_[(count_ - 1) % kRing] = sample - answer.rate;
   answer.rate =
       correction.slow.apply(sample, answer.rate, trust, options_, model_.scale, std::span(newer).first(lag));
-  if (lag > 0) answer.rate = correction.gain.apply(sample, answer.rate, noise, options_, model_.scale);
+  if (lag > 0) answer.rate = correction.gain.apply(sample, answer.rate, unwanted, options_, model_.scale);
   answer.variance = widened(answer.variance);
 }
 

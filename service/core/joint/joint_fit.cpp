@@ -164,7 +164,8 @@ void JointFit::describe(std::span<const double> imf, WindowReport& report) const
   figures.mean_period_samples = mean_period(imf);
   const double floor = line_.power > 0.0 ? std::sqrt(unit_ * noise_variance(noise_)) : report.noise_floor;
   figures.excess = figures.energy / (floor * floor * noise_line_energy(index));
-  if (figures.mean_period_samples > options_.slow_period_samples) return;
+  // The slow mode is never left out: what is slow and beyond the signal band needs a mode of its own.
+  if (figures.mean_period_samples > std::max(options_.slow_period_samples, 1.0 / max_signal_cycles_)) return;
   report.k = index;
   figures.imf_class = figures.excess < options_.least_excess ? ImfClass::kNoise : ImfClass::kMixed;
   if (figures.imf_class == ImfClass::kNoise && report.j + 1 == index) report.j = index;
@@ -197,8 +198,11 @@ void JointFit::start_line(const Tone& tone) noexcept {
 void JointFit::design(JointModel& model) noexcept {
   model.fallbacks = 0;
   model.noise_variance = seen_noise();
-  model.residual_variance = max_signal_cycles_ < 0.5 ? std::numeric_limits<double>::infinity()
-                                                     : model.noise_variance + unit_ * left_out();
+  const bool band = max_signal_cycles_ < 0.5;
+  const double left_out_variance = unit_ * left_out();
+  model.beyond_band_variance = band ? left_out_variance : 0.0;
+  model.residual_variance =
+      band ? std::numeric_limits<double>::infinity() : model.noise_variance + left_out_variance;
   const BlockSet pruned = blocks_of(pruned_, 1.0);
   make(blocks_of(full_, 1.0), MemberKind::kFull, model);
   make(pruned, MemberKind::kPruned, model);

@@ -28,6 +28,8 @@ inline constexpr std::size_t kMembers = 7;
 struct JointModel {
   double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
   double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared
+  /// Of the modes that are no signal because they lie beyond the signal band; 0 where none is set.
+  double beyond_band_variance = 0.0;
   /// Of what a good estimate takes off the samples: the noise, and what is left out as no signal. Infinite where a signal band is set.
   double residual_variance = 0.0;
   std::array<MemberModel, kMembers> members{};

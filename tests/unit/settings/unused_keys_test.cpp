@@ -32,6 +32,14 @@ TEST(UnusedKeys, AKeyOfTheOtherMethodIsNamedWithItsValueAndBothMethods) {
       ElementsAre(R"(denoise.max_signal_hz is 5.0, which is for denoise.method "joint"; it is "paper")"));
 }
 
+TEST(UnusedKeys, ASignalBandThatReachesHalfTheSampleRateIs) {
+  EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 60, "sample_rate_hz": 100}})"),
+              ElementsAre("denoise.max_signal_hz is 60.0; at a denoise.sample_rate_hz of 100.0 there is "
+                          "nothing above 50.0 Hz"));
+  EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 49.9, "sample_rate_hz": 100}})"), IsEmpty());
+  EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 60}})"), IsEmpty()) << "the rate is not known";
+}
+
 TEST(UnusedKeys, AKeyOfTheMethodInUseAndAKeyAtItsDefaultAreNot) {
   EXPECT_THAT(unused(R"({"denoise": {"method": "paper", "scheme": "emd", "screening": "paper"}})"),
               IsEmpty());

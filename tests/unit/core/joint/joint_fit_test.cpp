@@ -1,6 +1,7 @@
 #include "core/joint/joint_fit.hpp"
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -106,6 +107,27 @@ TEST(JointFit, AboveTheSignalBandNothingIsSignal) {
     return model.member(core::MemberKind::kFull).prediction_variance;
   };
   EXPECT_LT(signal_variance(0.1), 0.1 * signal_variance(0.3));
+}
+
+// Thirty times the noise, and all of it unwanted. The corrections give back what estimates leave out: they took a twelfth of the tone for that.
+TEST(JointFit, AToneAboveTheSignalBandDoesNotComeBack) {
+  constexpr double kTone = 0.0775;
+  constexpr double kAmplitude = 3.0;
+  const Signal truth = testing::times(testing::tone(8000, 0.005), 2.0);
+  Signal z = testing::sum(truth, testing::white_noise(8000, 4), 0.1);
+  z = testing::sum(z, testing::tone(8000, kTone), kAmplitude);
+  const JointOutput out =
+      testing::run_joint(z, core::white_noise(0.01), 16, core::JointFit::kMinSamples, 0.05);
+  const auto left = [&truth](const Signal& answer) {
+    std::complex<double> sum = 0.0;
+    for (std::size_t t = 2000; t < 7900; ++t)
+      sum +=
+          (answer[t] - truth[t]) * std::polar(1.0, -2.0 * std::numbers::pi * kTone * static_cast<double>(t));
+    return 2.0 * std::abs(sum) / 5900.0;
+  };
+  EXPECT_LT(left(out.denoised), 0.01 * kAmplitude);
+  EXPECT_LT(left(out.realtime), 0.02 * kAmplitude);
+  EXPECT_LT(testing::rms_difference(out.denoised, truth, 2000, 7900), 0.1);
 }
 
 // Nothing can be told from a sensor that is stuck.
