@@ -42,7 +42,7 @@ const std::vector<Room>& rooms() {
        {"core/", "stream", "live", "secrets", "web"},
        {"prometheus/", "httplib.h", "nlohmann/", "openssl/", "crypt.h", "arpa/inet.h", "netdb.h", "netinet/",
         "poll.h", "sys/", "unistd.h"}},
-      {"settings", {"core/", "stream", "ros2", "fleet"}, {"nlohmann/", "valijson/"}},
+      {"settings", {"core/", "stream", "ros2", "fleet"}, {"nlohmann/", "valijson/", "zlib.h"}},
       {"files", {"core/", "stream"}, {"zlib.h", "fcntl.h", "sys/", "unistd.h"}},
       {"web", {}, {}},
       {"report", {"core/", "web"}, {"nlohmann/"}},

@@ -17,6 +17,7 @@
 namespace gyrod::app {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -72,6 +73,49 @@ TEST_F(NoiseStateFileTest, PutsADamagedFileAsideWithOneWarning) {
   EXPECT_TRUE(damaged.save(states(90.0)));
   EXPECT_EQ(file(path).load().at("front").rest_seconds, 90.0);
   EXPECT_THAT(warnings, SizeIs(1));
+}
+
+// A name that ends in .gz is compressed by whoever writes it, so it has to be readable.
+TEST_F(NoiseStateFileTest, KeepsWhatWasSavedCompressedAndPutsACutFileAside) {
+  const std::string compressed = folder.path("noise.json.gz");
+  ASSERT_TRUE(file(compressed).save(states(60.0)));
+  const std::string good = folder.read("noise.json.gz");
+  EXPECT_TRUE(good.starts_with("\x1f\x8b"));
+  EXPECT_EQ(file(compressed).load().at("front").rest_seconds, 60.0);
+  folder.write("noise.json.gz", good.substr(0, good.size() / 2));
+  EXPECT_THAT(file(compressed).load(), IsEmpty());
+  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr(compressed + ": cannot be read: gzip: "),
+                                          HasSubstr("the file is kept as " + compressed + ".damaged"))));
+}
+
+// Shards with one configuration: each has its own sensors, and knows the other's from the last start only.
+TEST_F(NoiseStateFileTest, TwoDaemonsKeepEachOthersSensors) {
+  ASSERT_TRUE(file(path).save(states(60.0)));
+  NoiseStateFile one = file(path);
+  NoiseStateFile other = file(path);
+  settings::NoiseStates of_one = one.load();
+  settings::NoiseStates of_other = other.load();
+  of_one.at("front").rest_seconds = 120.0;
+  of_other["rear"] = states(30.0).at("front");
+  ASSERT_TRUE(one.save(of_one));
+  ASSERT_TRUE(other.save(of_other));
+  const auto seconds = [this](const char* sensor) { return file(path).load().at(sensor).rest_seconds; };
+  EXPECT_EQ(seconds("front"), 120.0) << "the other has nothing new of it";
+  EXPECT_EQ(seconds("rear"), 30.0);
+  of_one.at("front").rest_seconds = 180.0;
+  ASSERT_TRUE(one.save(of_one));
+  EXPECT_EQ(seconds("front"), 180.0);
+  EXPECT_EQ(seconds("rear"), 30.0) << "which this one has never heard of";
+}
+
+// What turned out to be no rest has no models any more, and must not come back from the file.
+TEST_F(NoiseStateFileTest, WhatIsForgottenHereIsGoneThere) {
+  ASSERT_TRUE(file(path).save(states(60.0)));
+  NoiseStateFile one = file(path);
+  settings::NoiseStates of_one = one.load();
+  of_one.at("front") = {};
+  ASSERT_TRUE(one.save(of_one));
+  EXPECT_THAT(file(path).load(), IsEmpty());
 }
 
 TEST_F(NoiseStateFileTest, PutsAnotherVersionAside) {
