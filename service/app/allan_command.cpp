@@ -1,7 +1,7 @@
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "app/allan_analysis.hpp"
 #include "app/allan_files.hpp"
@@ -11,6 +11,7 @@
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
 #include "app/progress_bar.hpp"
+#include "app/targets.hpp"
 #include "files/output_file.hpp"
 #include "files/record.hpp"
 
@@ -63,12 +64,9 @@ std::string check_axes(std::string& text) {
 }
 
 void check_outputs(const AllanFlags& flags) {
-  std::set<std::string> seen;
-  for (const auto* path : {&flags.json, &flags.csv, &flags.plot, &flags.imu_yaml}) {
-    if (!path->empty() && !seen.insert(*path).second) {
-      throw CLI::ValidationError("'" + *path + "' is named for two outputs");
-    }
-  }
+  require_apart(std::array{NamedFile{"the input", flags.input}},
+                std::array{NamedFile{"--json", flags.json}, NamedFile{"--csv", flags.csv},
+                           NamedFile{"--plot", flags.plot}, NamedFile{"--imu-yaml", flags.imu_yaml}});
 }
 
 /// Then the table would be in the way.

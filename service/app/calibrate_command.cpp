@@ -1,4 +1,5 @@
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "app/flags.hpp"
 #include "app/noise_calibrator.hpp"
 #include "app/progress_bar.hpp"
+#include "app/targets.hpp"
 #include "core/noise/noise_units.hpp"
 #include "files/output_file.hpp"
 #include "files/record.hpp"
@@ -49,6 +51,10 @@ void check_flags(const CalibrateFlags& flags) {
     throw CLI::ValidationError("--rate is missing; expected the sensor's sample rate in Hz");
   if (flags.from_data_sheet() && (flags.from_s || flags.to_s || flags.calibration.all_still))
     throw CLI::ValidationError("--from, --to and --all-still are for a recording");
+  if (flags.from_s && flags.to_s && *flags.from_s >= *flags.to_s) {
+    throw CLI::ValidationError("--from", fmt::format("{:g} is not before --to {:g}; nothing lies between",
+                                                     *flags.from_s, *flags.to_s));
+  }
 }
 
 /// White noise: a data sheet tells no colour.
@@ -82,20 +88,41 @@ files::Record read_record(const CalibrateFlags& flags, Interrupt& interrupt) {
   return files::load_record(flags.input, options);
 }
 
+/// What became of rows that did not take part, on standard error.
+void tell_left_out(const files::Record& record, const NoiseCalibrationRun& run) {
+  const auto note = [](std::uint64_t count, const char* what) {
+    if (count > 0) std::fprintf(stderr, "  %llu %s\n", static_cast<unsigned long long>(count), what);
+  };
+  note(record.counts.broken, "broken rows left out");
+  note(record.counts.refused, "samples refused (not finite, out of range, duplicate, out of order)");
+  note(record.counts.bridged, "samples of short gaps bridged by a straight line");
+  note(record.counts.left_out, "samples left out: only the longest stretch without a long gap is looked at");
+  if (!run.accelerometer_trouble.empty())
+    std::fprintf(stderr, "  rest is judged without the accelerometer: %s\n",
+                 run.accelerometer_trouble.c_str());
+}
+
 NoiseCalibrationRun from_recording(const CalibrateFlags& flags, Interrupt& interrupt) {
   const files::Record record = read_record(flags, interrupt);
   CalibrationOptions options = flags.calibration;
   if (flags.from_s) options.from_s = *flags.from_s;
   if (flags.to_s) options.to_s = *flags.to_s;
-  ProgressBar progress("looking for rest");
-  return calibrate_noise(record, options, [&](double done) {
-    progress.show(done, record.size());
-    return !interrupt.requested();
-  });
+  NoiseCalibrationRun run;
+  {
+    ProgressBar progress("looking for rest");
+    run = calibrate_noise(record, options, [&](double done) {
+      progress.show(done, record.size());
+      return !interrupt.requested();
+    });
+  }
+  tell_left_out(record, run);
+  return run;
 }
 
 int calibrate(const CalibrateFlags& flags, Interrupt& interrupt) {
   check_flags(flags);
+  require_apart(std::array{NamedFile{"the input", flags.input}},
+                std::array{NamedFile{"--output", flags.output}});
   files::OutputFile output(flags.output);
   std::string text;
   settings::NoiseCalibration calibration;

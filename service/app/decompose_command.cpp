@@ -13,6 +13,7 @@
 #include "app/exit_code.hpp"
 #include "app/flags.hpp"
 #include "app/progress_bar.hpp"
+#include "app/targets.hpp"
 #include "app/version.hpp"
 #include "core/denoise/record_analysis.hpp"
 #include "files/file_error.hpp"
@@ -165,7 +166,8 @@ int decompose(const DecomposeFlags& flags, Interrupt& interrupt) {
   if (flags.output == "-" && flags.axis.empty())
     throw CLI::ValidationError("--output",
                                "is standard output, which holds one axis; expected --axis beside it");
-  if (flags.summary == flags.output) throw CLI::ValidationError("--summary", "is the same file as --output");
+  require_apart(std::array{NamedFile{"the input", flags.input}},
+                std::array{NamedFile{"--output", flags.output}, NamedFile{"--summary", flags.summary}});
   const std::shared_ptr<const files::Record> record = load(flags, interrupt);
   if (!record) return interrupted();
   if (flags.input == "-") interrupt.hold();

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "app/flags.hpp"
 #include "app/offline_denoiser.hpp"
 #include "app/progress_bar.hpp"
+#include "app/targets.hpp"
 #include "files/output_file.hpp"
 #include "files/recording_reader.hpp"
 #include "files/recording_writer.hpp"
@@ -107,7 +109,9 @@ DenoiseSummary::Source source_of(const DenoiseFlags& flags, const DenoisePlan& p
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   // Reading from a terminal or a pipe can wait for ever.
   if (flags.input == "-") interrupt.let_through();
-  if (flags.summary == flags.output) throw CLI::ValidationError("--summary", "is the same file as --output");
+  require_apart(std::array{NamedFile{"the input", flags.input}, NamedFile{"--noise", flags.choice.noise},
+                           NamedFile{"--config", flags.choice.config}},
+                std::array{NamedFile{"--output", flags.output}, NamedFile{"--summary", flags.summary}});
   const DenoisePlan plan = plan_of(flags.choice);
   files::RecordingReader reader(flags.input, flags.recording.options);
   files::RecordingWriter writer(flags.output, reader.header(), flags.deviation);

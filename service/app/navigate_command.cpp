@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -13,6 +14,7 @@
 #include "app/navigation_rates.hpp"
 #include "app/navigation_report.hpp"
 #include "app/progress_bar.hpp"
+#include "app/targets.hpp"
 #include "files/column_names.hpp"
 #include "files/file_error.hpp"
 #include "files/output_file.hpp"
@@ -94,8 +96,8 @@ std::vector<NavigationRun> runs_of(const std::vector<std::string>& schemes,
 }
 
 void check_outputs(const NavigateFlags& flags) {
-  if (!flags.json.empty() && flags.json == flags.csv)
-    throw CLI::ValidationError("--csv", "is the same file as --json");
+  require_apart(std::array{NamedFile{"the input", flags.input}, NamedFile{"--truth", flags.truth}},
+                std::array{NamedFile{"--json", flags.json}, NamedFile{"--csv", flags.csv}});
   if (flags.still && !flags.truth.empty())
     throw CLI::ValidationError("--still", "and --truth exclude one another");
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,9 +37,11 @@ Part part_of(const files::Record& record, const CalibrationOptions& options) {
   const auto begin = std::ranges::lower_bound(record.time_s, options.from_s);
   const auto end = std::ranges::upper_bound(record.time_s, options.to_s);
   if (begin >= end) {
-    throw files::FileError(fmt::format(
-        "{}: nothing between {:g} s and {:g} s; expected times within the {:.1f} s of the recording",
-        record.name, options.from_s, options.to_s, record.time_s.back()));
+    const std::string to = options.to_s < record.time_s.back() ? fmt::format(" to {:g} s", options.to_s) : "";
+    throw files::FileError(
+        fmt::format("{}: nothing from {:g} s{}; expected times within the {:.1f} s of the recording{}",
+                    record.name, options.from_s, to, record.time_s.back(),
+                    record.counts.gaps > 0 ? ", its longest stretch without a long gap" : ""));
   }
   return {.first = static_cast<std::size_t>(begin - record.time_s.begin()),
           .size = static_cast<std::size_t>(end - begin)};
@@ -49,20 +52,37 @@ bool has_accelerometer(const files::Record& record) {
                              [](const auto& column) { return column.first.starts_with("accel_x_"); });
 }
 
+/// What the recording has of an accelerometer, or why it cannot be used.
+struct Forces {
+  std::optional<files::Accelerometer> accelerometer;
+  std::string trouble;
+};
+
+Forces forces_of(const files::Record& record) {
+  if (!has_accelerometer(record)) return {};
+  try {
+    return {files::accelerometer_of(record), ""};
+  } catch (const files::FileError& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
 /// Axes of the part; a missing axis counts as 0, which is an axis that never changes.
-core::StillSearch search(const files::Record& record, Part part, const std::function<bool(double)>& go_on) {
+core::StillSearch search(const files::Record& record, Part part, const Forces& forces,
+                         const std::function<bool(double)>& go_on) {
   const std::vector<double> absent(part.size, 0.0);
   core::StillInput input;
   for (std::size_t a = 0; a < input.rate.size(); ++a) {
     const std::vector<double>& axis = record.gyro_radps[a];
     input.rate[a] = axis.empty() ? Samples(absent) : Samples(axis).subspan(part.first, part.size);
   }
-  files::Accelerometer accelerometer;
-  if (has_accelerometer(record)) {
-    accelerometer = files::accelerometer_of(record);
-    for (std::size_t a = 0; a < input.accelerometer.size(); ++a)
-      input.accelerometer[a] = Samples(accelerometer.specific_force_mps2[a]).subspan(part.first, part.size);
+  if (forces.accelerometer) {
+    for (std::size_t a = 0; a < input.accelerometer.size(); ++a) {
+      const Samples axis = forces.accelerometer->specific_force_mps2[a];
+      input.accelerometer[a] = axis.subspan(part.first, part.size);
+    }
   }
+  if (!record.bridged.empty()) input.bridged = std::span(record.bridged).subspan(part.first, part.size);
   bool stopped = false;
   core::StillSearch found = core::find_still(input, record.sample_rate_hz, [&](double done) {
     stopped = !go_on(done);
@@ -72,7 +92,7 @@ core::StillSearch search(const files::Record& record, Part part, const std::func
   return found;
 }
 
-std::string excuse(const core::StillSearch& found, double rate) {
+std::string excuse(const core::StillSearch& found, double rate, bool any_bridged) {
   const auto seconds = [&](RestVerdict verdict) {
     return static_cast<double>(found.verdicts[static_cast<std::size_t>(verdict)]) / rate;
   };
@@ -84,6 +104,10 @@ std::string excuse(const core::StillSearch& found, double rate) {
   add(seconds(RestVerdict::kWandering), "turn slowly");
   add(seconds(RestVerdict::kTone), "hold a tone (an engine, a fan)");
   add(seconds(RestVerdict::kFrozen), "do not change at all");
+  if (any_bridged)
+    add(seconds(RestVerdict::kTooEarly), "are too near to bridged samples, more than 2 in a hundred");
+  add(static_cast<double>(found.turning) / rate, "turn steadily");
+  add(static_cast<double>(found.stuck) / rate, "have an axis that is stuck");
   add(static_cast<double>(found.louder) / rate, "are steady, but louder than the quietest part");
   return text.empty() ? "" : "; of the rest " + text;
 }
@@ -94,10 +118,11 @@ void require_enough(const NoiseCalibrationRun& run, const files::Record& record,
   const double still_s = static_cast<double>(run.found.still) / rate;
   if (still_s >= options.least_still_s && run.found.still >= core::kMinStillSamples) return;
   const double needed_s = std::max(options.least_still_s, static_cast<double>(core::kMinStillSamples) / rate);
+  const double all_s = static_cast<double>(run.samples) / rate;
   std::string text =
-      fmt::format("{}: {:.1f} s of {:.1f} s are at rest{}; expected {:.0f} s at least", record.name, still_s,
-                  static_cast<double>(run.samples) / rate, excuse(run.found, rate), needed_s);
-  if (!options.all_still) text += ". --all-still takes all of it as still";
+      fmt::format("{}: {:.1f} s of {:.1f} s are at rest{}; expected {:g} s at least", record.name, still_s,
+                  all_s, excuse(run.found, rate, !record.bridged.empty()), needed_s);
+  if (!options.all_still && all_s >= needed_s) text += ". --all-still takes all of it as still";
   throw files::FileError(text);
 }
 
@@ -128,12 +153,16 @@ NoiseCalibrationRun calibrate_noise(const files::Record& record, const Calibrati
   const Part part = part_of(record, options);
   NoiseCalibrationRun run;
   run.samples = part.size;
+  run.any_bridged = !record.bridged.empty();
   run.first_s = record.time_s[part.first];
-  run.with_accelerometer = !options.all_still && has_accelerometer(record);
   if (options.all_still) {
-    run.found = {.stretches = {{0, part.size}}, .still = part.size, .louder = 0, .verdicts = {}};
+    run.found.stretches = {{0, part.size}};
+    run.found.still = part.size;
   } else {
-    run.found = search(record, part, go_on);
+    const Forces forces = forces_of(record);
+    run.with_accelerometer = forces.accelerometer.has_value();
+    run.accelerometer_trouble = forces.trouble;
+    run.found = search(record, part, forces, go_on);
   }
   for (core::Stretch& stretch : run.found.stretches) stretch.first += part.first;
   require_enough(run, record, options);
@@ -186,7 +215,7 @@ std::string stretches_text(const NoiseCalibrationRun& run) {
   }
   if (stretches.size() > kNamedStretches)
     text += fmt::format("  and {} more stretches\n", stretches.size() - kNamedStretches);
-  const std::string rest = excuse(run.found, rate);
+  const std::string rest = excuse(run.found, rate, run.any_bridged);
   if (!rest.empty()) text += "  " + rest.substr(2) + "\n";
   return text;
 }

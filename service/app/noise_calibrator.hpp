@@ -25,6 +25,8 @@ struct NoiseCalibrationRun {
   double first_s = 0.0;     ///< where the part that was looked at begins, s into the recording
   std::size_t samples = 0;  ///< of it
   bool with_accelerometer = false;
+  std::string accelerometer_trouble;  ///< why one that is there is not used; empty where there is none
+  bool any_bridged = false;
 };
 
 /// Finds where the recording is still, and fits the noise of each axis there.

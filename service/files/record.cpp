@@ -76,6 +76,7 @@ struct Stretch {
   std::vector<std::int64_t> stamp_ns;
   std::array<std::vector<double>, stream::kAxes> rate_radps;
   std::vector<std::vector<double>> others;
+  std::vector<std::uint8_t> made_up;  ///< by bridging; as far as the last one
   std::uint64_t bridged = 0;
   std::uint64_t missing = 0;
 
@@ -101,6 +102,8 @@ struct Stretch {
       sample.stamp_ns = std::llround(between(last_stamp, static_cast<double>(next.stamp_ns)));
       for (std::size_t i = 0; i < stream::kAxes; ++i)
         sample.rate_radps[i] = between(last[i], next.rate_radps[i]);
+      made_up.resize(stamp_ns.size());
+      made_up.push_back(1);
       append(sample, nothing);
     }
     bridged += count;
@@ -146,6 +149,10 @@ class Loader {
     }
     for (std::size_t i = 0; i < stream::kAxes; ++i) {
       if (record.header.gyro[i]) record.gyro_radps[i] = std::move(best_.rate_radps[i]);
+    }
+    if (best_.bridged > 0) {
+      best_.made_up.resize(record.size());
+      record.bridged = std::move(best_.made_up);
     }
     record.others = columns_.named(std::move(best_.others));
     set_rate(record);

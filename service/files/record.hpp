@@ -55,6 +55,8 @@ struct Record {
   double first_stamp_s = 0.0;  ///< of the first sample of the stretch, on the file's own clock
   /// Finite; empty for an axis that the file does not have.
   std::array<std::vector<double>, stream::kAxes> gyro_radps;
+  /// 1 where a sample was bridged, else 0; empty where none was.
+  std::vector<std::uint8_t> bridged;
   /// Other columns that hold a number somewhere, by name in lower case; NaN where the cell is no number and at
   /// bridged samples. In the file's unit.
   std::map<std::string, std::vector<double>, std::less<>> others;

@@ -40,11 +40,9 @@ ChannelNoise calibrated_noise(const CalibratedNoise& calibrated, double sample_r
   return channel_noise(NoiseSource::kCalibrated, calibrated_models(calibrated, sample_rate_hz));
 }
 
-/// Nothing where a value is not finite: the accelerometer has failed, or has none to give.
-const core::Triple* force_of(const Sample& sample) noexcept {
-  if (!sample.specific_force_mps2) return nullptr;
-  const core::Triple& force = *sample.specific_force_mps2;
-  return std::ranges::all_of(force, [](double value) { return std::isfinite(value); }) ? &force : nullptr;
+bool has_force(const Sample& sample) noexcept {
+  return sample.specific_force_mps2 &&
+         std::ranges::all_of(*sample.specific_force_mps2, [](double value) { return std::isfinite(value); });
 }
 
 double first_rate(const StandstillOptions& options) noexcept {
@@ -88,9 +86,22 @@ void StandstillNoise::step(const Sample& sample, bool measured, double sample_ra
   fresh_ = false;
   follow_rate(sample_rate_hz);
   if (!(rate_hz_ > 0.0)) return;
-  if (!measured) return reset_segment();
-  allan_.step(sample.rate_radps);
-  if (learner_.step(sample.rate_radps, force_of(sample))) end_block();
+  if (measured)
+    allan_.step(sample.rate_radps);
+  else
+    allan_.interrupt();
+  if (learner_.step(sample.rate_radps, force_at(sample, measured), measured)) end_block();
+}
+
+/// Nothing where the accelerometer has failed, or has none to give, for more than a moment.
+const core::Triple* StandstillNoise::force_at(const Sample& sample, bool measured) noexcept {
+  if (measured && has_force(sample)) {
+    force_mps2_ = *sample.specific_force_mps2;
+    held_ = 0;
+  } else if (held_ <= kMostHeldForces) {
+    ++held_;
+  }
+  return held_ <= kMostHeldForces ? &force_mps2_ : nullptr;
 }
 
 void StandstillNoise::end_block() noexcept {
@@ -155,6 +166,7 @@ ChannelNoise StandstillNoise::known() const noexcept {
 void StandstillNoise::reset_segment() noexcept {
   learner_.interrupt();
   allan_.interrupt();
+  held_ = kMostHeldForces + 1;
 }
 
 }  // namespace gyrod::stream

@@ -56,11 +56,14 @@ struct StandstillOptions {
 /// core::StandstillLearner for a channel. The sample rate that it and the calibration are used at is the configured one. Without one
 /// it is that of the calibration or of what is remembered, until the stamps have said otherwise (by more than 2 %, and always the same)
 /// for kAgreeing samples in a row; then it is theirs: a calibration goes through core::at_rate(), and learning begins anew.
-/// Bridged positions are gaps to the learner: what is interpolated has less noise. Beside it grows the Allan deviation of what is at
-/// rest (RestAllan); it begins anew where the learner does.
+/// Bridged positions are gaps to the learner where they are more than 2 % of a second's samples: what is interpolated has less noise. Of an
+/// accelerometer that fails for a few samples the last value holds; where it fails for longer, rest is judged without it. Beside
+/// the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew where the learner does.
 class StandstillNoise final : public NoiseLearner {
  public:
   static constexpr std::size_t kAgreeing = 256;
+  /// Samples in a row for which the last specific force holds.
+  static constexpr std::size_t kMostHeldForces = 16;
 
   explicit StandstillNoise(StandstillOptions options);
 
@@ -73,6 +76,7 @@ class StandstillNoise final : public NoiseLearner {
   }
 
  private:
+  [[nodiscard]] const core::Triple* force_at(const Sample& sample, bool measured) noexcept;
   void end_block() noexcept;
   void follow_rate(double sample_rate_hz) noexcept;
   void take_rate(double sample_rate_hz) noexcept;
@@ -83,6 +87,8 @@ class StandstillNoise final : public NoiseLearner {
   double other_rate_hz_ = 0.0;
   std::size_t agreeing_ = 0;
   bool rate_changed_ = false;
+  core::Triple force_mps2_{};               ///< the last good one
+  std::size_t held_ = kMostHeldForces + 1;  ///< samples since then
   core::StandstillLearner learner_;
   std::uint64_t revision_ = 0;  ///< of the learner, that was told
   RestAllan allan_;

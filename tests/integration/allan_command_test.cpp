@@ -211,7 +211,7 @@ TEST_F(AllanCommand, WhatCannotBeDoneIsSaid) {
   expect_failure({"--rate", "50", "--json", path("no/folder/x.json")}, ExitCode::kFileTrouble,
                  HasSubstr("no/folder"));
   expect_failure({"--rate", "50", "--json", path("a"), "--csv", path("a")}, ExitCode::kWrongUsage,
-                 HasSubstr("two outputs"));
+                 HasSubstr("--csv: is the same file as --json"));
   white_recording(2);
   expect_failure({"--rate", "50"}, ExitCode::kFileTrouble, HasSubstr("at least 3"));
   EXPECT_EQ(run({"allan", path("none.csv")}).exit_code, ExitCode::kFileTrouble);

@@ -90,6 +90,49 @@ TEST_F(CalibrateCommand, TakesTheFiguresOfADataSheet) {
   EXPECT_NEAR(Json::parse(three.out).at("figures").at("z").at("arw_deg_per_sqrt_h").get<double>(), 3.0, 1e-9);
 }
 
+TEST_F(CalibrateCommand, WritesOverNoRecording) {
+  const std::string input = recording(60, 0);
+  const std::string before = read_file("in.csv");
+  std::filesystem::create_symlink(input, path("link.csv"));
+  for (const std::string& output : {input, path("link.csv"), path("./in.csv")}) {
+    const Result result = calibrate({input, "-o", output});
+    EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage) << output;
+    EXPECT_THAT(result.err, HasSubstr("--output: is the same file as the input, " + input));
+    EXPECT_EQ(run({"denoise", input, "-o", output}).exit_code, ExitCode::kWrongUsage);
+  }
+  EXPECT_EQ(read_file("in.csv"), before);
+}
+
+TEST_F(CalibrateCommand, SaysWhatItLeavesOut) {
+  recording(60, 0);
+  const std::string text = read_file("in.csv");
+  std::istringstream rows(text);
+  std::string row;
+  std::getline(rows, row);
+  std::ostringstream with_holes;
+  with_holes << row << ",accel_x_mps2,accel_y_mps2,accel_z_mps2\n";
+  for (int n = 0; std::getline(rows, row); ++n) {
+    // Three are missing one by one; the accelerometer fails for half a second.
+    if (n == 1000 || n == 2000 || n == 3000) continue;
+    with_holes << row << (n / 50 == 20 ? ",nan,0,9.81\n" : ",0,0,9.81\n");
+  }
+  write_file("holes.csv", with_holes.str());
+  const Result result = calibrate({path("holes.csv"), "-o", path("cal.json")});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("3 samples of short gaps bridged by a straight line"),
+                                HasSubstr("rest is judged without the accelerometer: "),
+                                HasSubstr("accel_x_mps2 has no number for more than 16 samples in a row")));
+  EXPECT_THAT(result.out, HasSubstr("60.0 s of 60.0 s at rest"));
+}
+
+// What a name ending in .gz is written as, it is read as.
+TEST_F(CalibrateCommand, WritesACompressedCalibrationThatCanBeRead) {
+  const std::string input = recording(60, 0);
+  ASSERT_EQ(calibrate({input, "-o", path("cal.json.gz")}).exit_code, ExitCode::kDone);
+  const Result result = run({"denoise", input, "-o", path("out.csv"), "--noise", path("cal.json.gz")});
+  EXPECT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+}
+
 TEST_F(CalibrateCommand, SaysWhatIsWrongWithTheCommandLine) {
   const auto complaint = [this](const std::vector<std::string>& arguments) {
     const Result result = calibrate(arguments);
@@ -101,6 +144,8 @@ TEST_F(CalibrateCommand, SaysWhatIsWrongWithTheCommandLine) {
   EXPECT_THAT(complaint({"--arw", "2,2", "--rate", "100", "-o", "x"}), HasSubstr("2 values given"));
   EXPECT_THAT(complaint({"--arw", "2", "--noise-density", "1", "--rate", "100", "-o", "x"}),
               HasSubstr("expected one of them"));
+  EXPECT_THAT(complaint({"in.csv", "--from", "100", "--to", "50", "-o", "x"}),
+              HasSubstr("--from: 100 is not before --to 50"));
   EXPECT_THAT(complaint({"--noise-density", "-1", "--rate", "100", "-o", "x"}),
               HasSubstr("expected a number from"));
 }

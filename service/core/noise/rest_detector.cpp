@@ -24,6 +24,8 @@ constexpr double kMotionless_mps2 = 0.02;
 constexpr double kTone = 0.4;
 /// Fewer segments leave the spectrum of noise itself full of lines.
 constexpr double kFewestSegments = 2.0;
+/// Parts of a block that may be bridged. A bridged sample has half the variance of a measured one: 1 % off the level.
+constexpr double kMostBridged = 0.02;
 constexpr std::size_t kHalfWindow = RestDetector::kBlocks / 2;
 constexpr std::size_t kHalfSegment = kNoiseSegment / 2;
 
@@ -45,6 +47,7 @@ void RestDetector::retime(double sample_rate_hz) noexcept {
   assert(sample_rate_hz > 0.0);
   const double samples = std::max(kBlockSeconds * sample_rate_hz, kFewestInBlock);
   block_samples_ = static_cast<std::size_t>(std::lround(samples));
+  most_bridged_ = static_cast<std::size_t>(kMostBridged * samples);
   even_ratio_ = std::exp(kEvenDeviations * std::sqrt(2.0 / std::min(samples, kMostEvenSamples)));
   interrupt();
 }
@@ -63,6 +66,12 @@ bool RestDetector::step(const Triple& rate, const Triple* accelerometer) noexcep
   if (++in_block_ < block_samples_) return false;
   end_block();
   return true;
+}
+
+bool RestDetector::bridge(const Triple& rate, const Triple* accelerometer) noexcept {
+  if (++bridged_ <= most_bridged_) return step(rate, accelerometer);
+  interrupt();
+  return false;
 }
 
 void RestDetector::add(std::size_t input, double value) noexcept {
@@ -91,7 +100,7 @@ void RestDetector::end_block() noexcept {
     const double mean = sums.sum / count;
     windows_[input][newest_] = {sums.first + mean, std::max(sums.squares / count - mean * mean, 0.0)};
   }
-  in_block_ = 0;
+  in_block_ = bridged_ = 0;
   if (!newest_is_even()) {
     begin_run();
     after_gap_ = false;
@@ -118,7 +127,7 @@ void RestDetector::end_half() noexcept {
 
 void RestDetector::interrupt() noexcept {
   begin_run();
-  in_block_ = 0;
+  in_block_ = bridged_ = 0;
   after_gap_ = true;
   verdict_ = RestVerdict::kTooEarly;
 }
@@ -182,14 +191,19 @@ bool RestDetector::is_motionless(std::size_t input, std::size_t blocks) const no
 /// Spread of the block means in parts of what white noise of the blocks' level explains; 0 where nothing changes.
 double RestDetector::wandering(const Window& window) const noexcept {
   const double count = static_cast<double>(kBlocks);
+  // From one of them, so that means which are all the same have no spread by rounding.
+  const double origin = window.front().mean;
   double centre = 0.0;
   double level = 0.0;
   for (const Block& block : window) {
-    centre += block.mean / count;
+    centre += (block.mean - origin) / count;
     level += block.variance / count;
   }
   double spread = 0.0;
-  for (const Block& block : window) spread += (block.mean - centre) * (block.mean - centre) / (count - 1.0);
+  for (const Block& block : window) {
+    const double off = block.mean - origin - centre;
+    spread += off * off / (count - 1.0);
+  }
   if (!(spread > 0.0)) return 0.0;
   return spread * static_cast<double>(block_samples_) / level;
 }

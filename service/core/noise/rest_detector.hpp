@@ -52,6 +52,10 @@ class RestDetector {
   /// @param accelerometer specific force, m/s^2, finite, or nullptr. Where this changes from one sample to the next it is a gap
   bool step(const Triple& rate, const Triple* accelerometer = nullptr) noexcept;
 
+  /// One sample that nobody measured, on the line between its neighbours: what is interpolated has less noise. Two in a hundred of a block
+  /// make no difference that counts; more of them are a gap. @return as step()
+  bool bridge(const Triple& rate, const Triple* accelerometer = nullptr) noexcept;
+
   /// A gap: what follows does not join what was.
   void interrupt() noexcept;
 
@@ -99,6 +103,8 @@ class RestDetector {
   double even_ratio_ = 1.0;
   std::size_t inputs_ = 3;
   std::size_t in_block_ = 0;
+  std::size_t bridged_ = 0;  ///< of these
+  std::size_t most_bridged_ = 0;
   std::size_t blocks_ = 0;  ///< of this run, kBlocks at most
   std::size_t newest_ = 0;
   bool after_gap_ = true;

@@ -65,8 +65,9 @@ void StandstillLearner::retime(double sample_rate_hz) noexcept {
   other_seconds_ = 0.0;
 }
 
-bool StandstillLearner::step(const Triple& rate, const Triple* accelerometer) noexcept {
-  const bool ended = detector_.step(rate, accelerometer);
+bool StandstillLearner::step(const Triple& rate, const Triple* accelerometer, bool measured) noexcept {
+  const bool ended = measured ? detector_.step(rate, accelerometer) : detector_.bridge(rate, accelerometer);
+  if (detector_.verdict() == RestVerdict::kTooEarly) at_rest_ = false;
   if (ended) end_block();
   return ended;
 }
@@ -89,6 +90,8 @@ bool StandstillLearner::believes_level() noexcept {
   bool quieter = false;
   for (std::size_t axis = 0; axis < now.size(); ++axis) {
     if (!(level_[axis] > 0.0)) continue;
+    if (now[axis] == 0.0)
+      return false;  // stuck: nothing can be told of the axis, nor is it what the state is to forget
     louder = louder || now[axis] > kSameLevel * level_[axis];
     quieter = quieter || now[axis] * kSameLevel < level_[axis];
   }
@@ -130,11 +133,15 @@ void StandstillLearner::learn() noexcept {
   const double kept = std::min(state_.segments, most_segments_ - fresh.count);
   const double all = kept + fresh.count;
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
+    // An axis that has not changed so far and does now: what there is of it is new.
+    const double old = level_[axis] > 0.0 ? kept : 0.0;
     // Here and not before a fit: what comes back from a state file has been spread already.
-    const NoiseSpectrum power = spread_lines(fresh.power[axis]);
+    // An axis that does not change has no spectrum but that of rounding.
+    const bool alive = detector_.variance()[axis] > 0.0;
+    const NoiseSpectrum power = alive ? spread_lines(fresh.power[axis]) : NoiseSpectrum{};
     double sum = 0.0;
     for (std::size_t k = 0; k < kNoiseBins; ++k) {
-      power_[axis][k] = (kept * power_[axis][k] + power[k]) / all;
+      power_[axis][k] = (old * power_[axis][k] + power[k]) / (old + fresh.count);
       sum += power_[axis][k];
     }
     level_[axis] = sum / static_cast<double>(kNoiseBins);

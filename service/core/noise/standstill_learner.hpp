@@ -26,6 +26,7 @@ struct StandstillState {
 ///   level:  a window whose variance on some axis exceeds 1.5 times the learned one is not at rest (a smooth road, a smooth engine).
 ///           One below 1 / 1.5 shows that what was learned was not rest either: the lower level wins, learning begins anew. Half an hour
 ///           at the higher level with no rest at the lower one in between makes the higher one true: sensors age;
+///           A window in which an axis is stuck that was alive tells neither;
 ///   bias:   a window whose mean is more than 1 deg/s off the learned bias on some axis is a slow constant turn, unless such
 ///           windows, all alike, outlast what the bias was learned from (ten minutes of it at most).
 /// While nothing is learned the first rest is believed. A constant turn leaves the noise as it is; only the bias is then wrong, until
@@ -40,10 +41,11 @@ class StandstillLearner {
   explicit StandstillLearner(double sample_rate_hz);
 
   /// One sample, finite. Costs 0.1 us, and 0.3 ms once a block when it learns.
+  /// @param measured false where it lies on the line between its neighbours: RestDetector::bridge()
   /// @param rate rad/s
   /// @param accelerometer specific force, m/s^2, finite, or nullptr. Where this changes from one sample to the next it is a gap
   /// @return whether it ended a block, so that at_rest() and detector() are new
-  bool step(const Triple& rate, const Triple* accelerometer = nullptr) noexcept;
+  bool step(const Triple& rate, const Triple* accelerometer = nullptr, bool measured = true) noexcept;
 
   /// A gap in the samples. What is learned stays.
   void interrupt() noexcept;

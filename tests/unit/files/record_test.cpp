@@ -52,6 +52,7 @@ TEST_F(RecordTest, HoldsRatesTimesAndOtherColumnsThatAreNumbers) {
   EXPECT_THAT(record.others, ElementsAre(Key("accel_x_g"))) << "a note is no number, names are in lower case";
   EXPECT_EQ(record.others.at("accel_x_g")[0], 1.5);
   EXPECT_TRUE(std::isnan(record.others.at("accel_x_g")[1]));
+  EXPECT_TRUE(record.bridged.empty());
 }
 
 TEST_F(RecordTest, LeavesOtherColumnsOutUnlessAskedFor) {
@@ -64,6 +65,7 @@ TEST_F(RecordTest, BridgesAShortGapAndARefusedSampleByLines) {
   const Record record = load(kHeader + rows(0, 3) + "3,nan,0,0,1,a\n" + rows(6, 8));
   EXPECT_THAT(record.gyro_radps[0], ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
   EXPECT_EQ(record.counts.bridged, 3U);
+  EXPECT_THAT(record.bridged, ElementsAre(0, 0, 0, 1, 1, 1, 0, 0));
   EXPECT_EQ(record.counts.refused, 1U);
   EXPECT_EQ(record.counts.missing, 2U);
   EXPECT_EQ(record.counts.gaps, 0U);

@@ -183,6 +183,24 @@ TEST(StandstillNoise, BelievesAnAccelerometerThatFeelsMotionAndNotOneThatHasFail
   }
 }
 
+// Every fiftieth force is no number: the last one holds. After a dropout of a second rest is judged by the gyro alone until it is back.
+TEST(StandstillNoise, LooksThroughAnAccelerometerThatFailsNowAndThen) {
+  StandstillNoise learner({});
+  auto samples = rest_then_motion(6000, 6000);
+  std::mt19937_64 bits(3);  // NOLINT(cert-msc51-cpp): the same each time
+  std::normal_distribution<double> normal(0.0, 0.01);
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    const bool fails = n % 50 == 0 || n / 100 == 30;
+    samples[n].specific_force_mps2 = {normal(bits), fails ? std::nan("") : normal(bits), 9.81 + normal(bits)};
+  }
+  EXPECT_EQ(after(learner, std::span(samples).first(3000), kHz).source, NoiseSource::kStandstill);
+  EXPECT_TRUE(learner.at_rest());
+  static_cast<void>(after(learner, std::span(samples).subspan(3000, 200), kHz));
+  EXPECT_FALSE(learner.at_rest()) << "with and without are judged apart";
+  static_cast<void>(after(learner, std::span(samples).subspan(3200), kHz));
+  EXPECT_TRUE(learner.at_rest());
+}
+
 TEST(StandstillNoise, GivesTheSameReportsForAnyWorkersAndAnyBatching) {
   const auto input = rest_then_motion(6000, 5000);
   const auto sources = [&input](std::size_t workers, std::size_t batch) {

@@ -109,6 +109,31 @@ TEST(StandstillLearner, BeginsAnewWhenItGetsQuieter) {
   for (const NoiseModel& model : learner.models()) EXPECT_NEAR(level_dps(model), 0.2, 0.2 * 4.0 * 0.01);
 }
 
+// A frozen axis is quieter than any noise; what was learned is not forgotten for it, nor the axis's own noise averaged with nothing.
+TEST(StandstillLearner, ForgetsNothingWhileAnAxisIsStuck) {
+  StandstillLearner learner(100.0);
+  rest(learner, 120.0, 0.35, 10);
+  const double learned = learner.rest_seconds();
+  Axes stuck = testing::still_axes(4000, 0.35, 11);
+  stuck[0].assign(4000, 0.1);
+  EXPECT_LE(seconds_at_rest(learner, stuck), 1.0) << "until the first block ends";
+  EXPECT_EQ(learner.rest_seconds(), learned);
+  rest(learner, 60.0, 0.35, 12);
+  EXPECT_GT(learner.rest_seconds(), learned + 45.0) << "and goes on";
+  EXPECT_NEAR(level_dps(learner.models()[0]), 0.35, 0.35 * 4.0 * 0.007);
+}
+
+TEST(StandstillLearner, AnAxisThatComesToLifeHasItsFullLevelAtOnce) {
+  StandstillLearner learner(100.0);
+  Axes dead = testing::still_axes(6000, 0.35, 13);
+  dead[0].assign(6000, 0.3 * kRadPerDeg);
+  testing::run(learner, dead, [] {});
+  EXPECT_FALSE(is_usable(learner.models()[0]));
+  rest(learner, 60.0, 0.35, 14);
+  EXPECT_NEAR(level_dps(learner.models()[0]), 0.35, 0.35 * 4.0 * 0.01);
+  EXPECT_GT(learner.rest_seconds(), 100.0);
+}
+
 TEST(StandstillLearner, BelievesAHigherLevelAfterHalfAnHour) {
   StandstillLearner learner(100.0);
   rest(learner, 60.0, 0.2, 12);
@@ -124,6 +149,29 @@ TEST(StandstillLearner, FollowsASlowDrift) {
   rest(learner, 600.0, 0.30, 15);
   rest(learner, 3600.0, 0.36, 16);
   EXPECT_NEAR(level_dps(learner.models()[1]), 0.36, 0.36 * 4.0 * 0.003);
+}
+
+// A sensor on a link that loses one in seventy, bridged by straight lines.
+TEST(StandstillLearner, LearnsFromASensorThatLosesASampleNowAndThen) {
+  const Axes axes = testing::still_axes(6000, 0.35, 18);
+  StandstillLearner learner(100.0);
+  for (std::size_t n = 1; n + 1 < 6000; ++n) {
+    const bool lost = n % 70 == 0;
+    Triple rate{};
+    for (std::size_t a = 0; a < 3; ++a) rate[a] = lost ? 0.5 * (axes[a][n - 1] + axes[a][n + 1]) : axes[a][n];
+    learner.step(rate, nullptr, !lost);
+  }
+  EXPECT_TRUE(learner.at_rest());
+  EXPECT_GT(learner.rest_seconds(), 50.0);
+  EXPECT_NEAR(level_dps(learner.models()[0]), 0.35, 0.35 * 4.0 * 0.01);
+}
+
+TEST(StandstillLearner, RestEndsWithALongGap) {
+  StandstillLearner learner(100.0);
+  rest(learner, 60.0, 0.35, 19);
+  EXPECT_TRUE(learner.at_rest());
+  for (int n = 0; n < 16; ++n) learner.step({}, nullptr, false);
+  EXPECT_FALSE(learner.at_rest());
 }
 
 TEST(StandstillLearner, GivesTheSameBitsForTheSameSamples) {

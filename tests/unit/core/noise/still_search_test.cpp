@@ -1,5 +1,7 @@
 #include "core/noise/still_search.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/noise/still_noise.hpp"
@@ -51,6 +53,44 @@ TEST(StillSearch, LeavesOutWhatIsLouderThanTheQuietest) {
   ASSERT_EQ(found.stretches.size(), 1U);
   EXPECT_GE(found.stretches[0].first, 3000U);
   EXPECT_GE(found.louder, 2900U);
+}
+
+// An axis that is stuck for three quarters of a minute is no rest, and not the quietest one.
+TEST(StillSearch, LeavesOutWhereAnAxisIsStuckThatIsAliveElsewhere) {
+  Axes axes = testing::still_axes(12000, 0.35, 1);
+  std::fill(axes[0].begin() + 4000, axes[0].begin() + 8500, 0.1);
+  const StillSearch found = find_still(input_of(axes), 100.0);
+  ASSERT_EQ(found.stretches.size(), 2U);
+  EXPECT_EQ(found.stretches[0].first, 0U);
+  EXPECT_EQ(found.stretches[0].size, 4000U);
+  // The first window of a run has too few segments for a verdict on tones.
+  EXPECT_EQ(found.stretches[1].first, 8600U);
+  EXPECT_EQ(found.stretches[1].size, 3400U);
+  EXPECT_EQ(found.stuck, 4400U);
+  EXPECT_EQ(found.louder, 0U);
+}
+
+TEST(StillSearch, TakesARecordingWhoseAxisNeverChanges) {
+  Axes axes = testing::still_axes(6000, 0.35, 1);
+  axes[1].assign(6000, 0.1);
+  const StillSearch found = find_still(input_of(axes), 100.0);
+  EXPECT_EQ(found.still, 6000U);
+  EXPECT_EQ(found.stuck, 0U);
+}
+
+TEST(StillSearch, LeavesOutASlowConstantTurn) {
+  Axes axes = testing::still_axes(4000, 0.35, 1);
+  Axes turn = testing::still_axes(5000, 0.35, 2);
+  testing::add_rate(turn, 2, 5.0);
+  append(axes, turn);
+  append(axes, testing::still_axes(4000, 0.35, 3));
+  const StillSearch found = find_still(input_of(axes), 100.0);
+  ASSERT_EQ(found.stretches.size(), 2U);
+  EXPECT_EQ(found.stretches[0].first, 0U);
+  EXPECT_EQ(found.stretches[0].size, 4000U);
+  EXPECT_GE(found.stretches[1].first, 9000U);
+  EXPECT_LE(found.stretches[1].first, 9100U);
+  EXPECT_GE(found.turning, 4800U);
 }
 
 TEST(StillSearch, FindsNothingInMotionNorInTooLittle) {
