@@ -17,6 +17,8 @@
 namespace gyrod::core {
 namespace {
 
+/// A level below this is that of another noise than the one that was measured.
+constexpr double kOtherNoise = 0.5;
 /// What a mode's drive is multiplied by at the start where its IMF holds no more than noise.
 constexpr double kLeastShare = 0.05;
 
@@ -106,9 +108,10 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
   const NoiseShape& shape = model.noise.shape();
   if (belief == NoiseBelief::kColour) {
     noise_ = scaled(model.line.rest(), std::sqrt(shape.level));
-    // Quieter windows do not make the line weaker than it is believed to be: it may be all that is as loud as ever.
-    line_.power *= std::max(shape.level, 1.0);
-    line_.mode.drive *= std::max(shape.level, 1.0);
+    // Quieter windows do not make the line weaker than it is believed to be, unless by far: it may be all that is as loud as ever.
+    const double line_level = shape.level < kOtherNoise ? shape.level : std::max(shape.level, 1.0);
+    line_.power *= line_level;
+    line_.mode.drive *= line_level;
   } else if (known) {
     noise_ = noise_of(shape);
   } else {

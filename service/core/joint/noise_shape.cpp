@@ -69,13 +69,18 @@ double log_likelihood(double excess) noexcept {
   return std::log(alone * std::exp(log_normal) + kMoving * std::exp(-excess / kMotionExcess));
 }
 
+const Tilts& all_log_shapes() noexcept {
+  static const Tilts shapes = log_shapes();
+  return shapes;
+}
+
 /// To 24 bits: exp and log of another processor's library may differ in the last bit, and results should not.
 double rounded(double value) noexcept { return static_cast<double>(static_cast<float>(value)); }
 
 }  // namespace
 
 NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
-  static const Tilts shapes = log_shapes();
+  const Tilts& shapes = all_log_shapes();
   const double unit = known ? 1.0 : std::ranges::min(power);
   if (!(unit > 0.0)) return {.level = 0.0};
   BandPower log_power{};
@@ -102,6 +107,14 @@ NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
     tilt += weight * tilt_at(i);
   }
   return {.level = unit * rounded(std::exp(level / sum)), .tilt = rounded(tilt / sum)};
+}
+
+std::size_t bands_of_noise_alone(const BandPower& power, const NoiseShape& shape) noexcept {
+  const BandPower& spectrum = all_log_shapes()[static_cast<std::size_t>(std::lround(shape.tilt / kTiltStep))];
+  std::size_t count = 0;
+  for (std::size_t band = 0; band < kNoiseBands; ++band)
+    count += std::abs(std::log(power[band] / shape.level) - spectrum[band]) < 2.0 * kBandDeviation ? 1U : 0U;
+  return count;
 }
 
 NoiseModel noise_of(const NoiseShape& shape) noexcept {

@@ -30,6 +30,10 @@ struct NoiseShape {
 /// @return level 0 where nothing is known and a band is empty; rounded, so that processors agree
 [[nodiscard]] NoiseShape likely_shape(const BandPower& power, bool known) noexcept;
 
+/// How many of the bands hold as much as noise of that shape alone would, within two of the deviations above.
+/// @pre shape.level > 0; no band is negative
+[[nodiscard]] std::size_t bands_of_noise_alone(const BandPower& power, const NoiseShape& shape) noexcept;
+
 /// Noise of that shape.
 [[nodiscard]] NoiseModel noise_of(const NoiseShape& shape) noexcept;
 

@@ -29,6 +29,16 @@ constexpr double kMotion = 2.0;
 constexpr double kMeanPower = 1.5;
 constexpr double kQuietestPower = 6.0;
 constexpr std::size_t kQuietest = 3;
+/// Where all bands are beyond that, and so many of the quietest no further apart than this, these hold noise: roads differ by more.
+/// Source: docs/decisions/0007, "A level that is far too low".
+constexpr std::size_t kAlikeBands = 4;
+constexpr double kAlike = 1.25;
+/// And where these are below this, the level is believed to be as low.
+constexpr double kFarBelow = 0.5;
+/// The same where no colour is believed: so many bands are noise alone of a likely shape.
+constexpr std::size_t kFewestAlone = 5;
+/// Below the believed level all that the bands show is believed, as motion only adds; so far, in case a sensor was asleep.
+constexpr double kLowestLevel = 1e-3;
 /// Beyond these the noise is said to be wrong: the spread of level() on the right noise is 0.9 to 1.3.
 constexpr double kTooQuiet = 0.8;
 constexpr double kTooLoud = 1.4;
@@ -40,7 +50,7 @@ double level_of(BandPower sorted) noexcept {
   const std::span<const double> quiet{sorted.begin(), motion};
   if (quiet.empty()) return 1.0;
   const double all = mean(quiet);
-  if (all <= 1.0) return std::max(all, 1.0 / kMotion);
+  if (all <= 1.0) return std::max(all, kLowestLevel);
   if (2 * quiet.size() <= kNoiseBands) return 1.0;
   const double quietest = mean(quiet.first(kQuietest));
   return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest, kQuietestPower)));
@@ -75,6 +85,7 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
     believed_power_[band] = power;
   }
   believed_ = believed;
+  far_level_ = 0.0;
 }
 
 void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
@@ -99,8 +110,37 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
     least_[band] = weight_ <= 1.0 ? ratio_[band] : std::min(growth * least_[band], ratio_[band]);
     bounded[band] = std::min(ratio_[band], kRise * least_[band]);
   }
-  shape_ = belief == NoiseBelief::kColour ? NoiseShape{.level = level_of(ratio_, bounded)}
-                                          : likely_shape(bounded, belief == NoiseBelief::kLevel);
+  find_far_level(bounded);
+  if (belief == NoiseBelief::kColour)
+    shape_ = {.level = far_level_ > 0.0 ? far_level_ : level_of(ratio_, bounded)};
+  else if (far_level_ == 0.0)
+    shape_ = likely_shape(bounded, belief == NoiseBelief::kLevel);
+}
+
+/// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that. It counts for as
+/// long as none is. Too high: motion only adds.
+void NoiseTracker::find_far_level(const BandPower& power) noexcept {
+  BandPower sorted = power;
+  std::ranges::sort(sorted);
+  // The quietest may be that of a line which is believed to be there.
+  const bool outlier =
+      sorted[kAlikeBands - 1] > kAlike * sorted[0] && sorted[kAlikeBands] <= kAlike * sorted[1];
+  const std::span<const double> quietest = std::span(sorted).subspan(outlier ? 1 : 0, kAlikeBands);
+  const double quiet = mean(quietest);
+  const bool below = quiet < kFarBelow;
+  const bool above = sorted.front() > kMotion;
+  if (belief_in(believed_) == NoiseBelief::kNothing || weight_ < 1.0 || (!below && !above)) {
+    far_level_ = 0.0;
+    return;
+  }
+  NoiseShape likely = likely_shape(power, false);
+  likely.level = std::max(likely.level, kLowestLevel);
+  const bool found = below || quietest.back() <= kAlike * quietest.front() ||
+                     bands_of_noise_alone(power, likely) >= kFewestAlone;
+  const bool whole = belief_in(believed_) == NoiseBelief::kLevel;
+  if (whole && (found || far_level_ > 0.0)) shape_ = likely;
+  const double level = whole ? likely.level : std::max(quiet, kLowestLevel);
+  far_level_ = found ? level : std::min(far_level_, level);
 }
 
 bool NoiseTracker::disagrees() const noexcept {

@@ -34,10 +34,12 @@ class NoiseTracker {
                double share) noexcept;
 
   /// Power of the noise in parts of the believed one, and its tilt where no colour is believed (likely_shape()).
-  /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1, at least one half. Above 1 the smaller of
+  /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1. Above 1 the smaller of
   /// mean^1.5 and (mean of the quietest three)^6, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
   /// some; and, as motion comes and goes while noise stays, for more than 1.15 times the least that it has shown no band counts. That is forgotten by a
   /// hundredth a window's length. 1 and white before anything was observed.
+  /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 2, where
+  /// no band is as quiet as believed and so many are alike that they hold noise and no motion.
   [[nodiscard]] const NoiseShape& shape() const noexcept { return shape_; }
   [[nodiscard]] double level() const noexcept { return shape_.level; }
 
@@ -45,13 +47,15 @@ class NoiseTracker {
   [[nodiscard]] bool disagrees() const noexcept;
 
  private:
+  void find_far_level(const BandPower& power) noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
 
   NoiseModel believed_;
   BandPower believed_power_{};  ///< of the bands, in the data's unit squared
   BandPower ratio_{};
-  BandPower least_{};    ///< that ratio_ was of late
-  double weight_ = 0.0;  ///< of what was observed, in windows
+  BandPower least_{};       ///< that ratio_ was of late
+  double weight_ = 0.0;     ///< of what was observed, in windows
+  double far_level_ = 0.0;  ///< of noise far above what is believed; 0 where it is not
   NoiseShape shape_;
 };
 

@@ -66,8 +66,47 @@ TEST(NoiseTracker, LeavesBandsOutThatHoldMotion) {
 
 TEST(NoiseTracker, DoesNotTakeARoughRoadForNoise) {
   EXPECT_DOUBLE_EQ(watched(spectrum(1.3, 1000.0, 4)).level(), 1.0);
-  EXPECT_DOUBLE_EQ(watched(spectrum(50.0)).level(), 1.0);
-  EXPECT_FALSE(watched(spectrum(50.0)).disagrees());
+  // All bands hold motion, twice as much in some of them as in others.
+  EXPECT_DOUBLE_EQ(watched(spectrum(50.0, 50.0, 5)).level(), 1.0);
+  EXPECT_FALSE(watched(spectrum(50.0, 50.0, 5)).disagrees());
+}
+
+// A calibration of another sensor, or in another unit. No road has the colour of the noise in so many bands; what lies above it is motion.
+TEST(NoiseTracker, FindsALevelBelievedManyTimesTooLow) {
+  for (const NoiseModel& believed : {coloured(), white_noise(1.0)}) {
+    for (const double level : {2.5, 4.0, 100.0}) {
+      for (const double motion : {0.0, 30.0}) {
+        NoiseTracker tracker;
+        watch(tracker, spectrum(level, motion * level, 3), 64, believed);
+        EXPECT_NEAR(tracker.level(), level, 0.12 * level) << motion;
+        EXPECT_TRUE(tracker.disagrees());
+        // Until a band is as quiet as it is believed to be.
+        watch(tracker, spectrum(1.0), 2000, believed);
+        EXPECT_NEAR(tracker.level(), 1.0, 0.05) << level;
+      }
+    }
+  }
+}
+
+TEST(NoiseTracker, FindsALevelBelievedManyTimesTooHigh) {
+  for (const NoiseModel& believed : {coloured(), white_noise(1.0)}) {
+    NoiseTracker tracker;
+    watch(tracker, spectrum(0.04, 1.0, 3), 64, believed);
+    EXPECT_NEAR(tracker.level(), 0.04, 0.005);
+    EXPECT_TRUE(tracker.disagrees());
+  }
+}
+
+// The road shakes every band, and differently.
+TEST(NoiseTracker, KeepsWhatIsBelievedOnAVeryRoughRoad) {
+  Spectrum road = spectrum(1.0);
+  for (std::size_t k = 0; k < kBins; ++k) road[k] += 400.0 * std::exp(-static_cast<double>(k) / 120.0);
+  NoiseTracker tracker;
+  watch(tracker, road, 320);
+  EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
+  NoiseTracker told;
+  watch(told, road, 320, white_noise(1.0));
+  EXPECT_LT(told.level(), 3.5) << "6.6 is the quietest bin";
 }
 
 TEST(NoiseTracker, DoesNotTakeVibrationInSomeBandsForNoise) {
@@ -75,7 +114,11 @@ TEST(NoiseTracker, DoesNotTakeVibrationInSomeBandsForNoise) {
   EXPECT_DOUBLE_EQ(watched(bins).level(), 1.0);
 }
 
-TEST(NoiseTracker, FollowsNoFurtherThanToOneHalf) { EXPECT_DOUBLE_EQ(watched(spectrum(1e-6)).level(), 0.5); }
+TEST(NoiseTracker, FollowsNoFurtherThanToAThousandth) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(1e-6), 64);
+  EXPECT_DOUBLE_EQ(tracker.level(), 1e-3);
+}
 
 TEST(NoiseTracker, ForgetsWithinSomeWindowsLengths) {
   // A memory of three windows' lengths: after nine more (288 of 32 a window) e^-3 of the old is left.
