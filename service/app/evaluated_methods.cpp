@@ -4,6 +4,7 @@
 
 #include "app/angle_units.hpp"
 #include "app/joint_contender.hpp"
+#include "app/options.hpp"
 #include "app/record_denoiser.hpp"
 #include "core/denoise/scheme.hpp"
 #include "core/joint/joint_options.hpp"
@@ -38,7 +39,8 @@ core::Method two_speed_method(const std::string& name, const MethodContext& cont
   JointRun run;
   run.sample_rate_hz = context.rate_hz;
   run.window_samples = context.settings.engine.window_samples;
-  run.hop_samples = context.settings.engine.hop_samples;
+  run.options = joint_options(context.settings);
+  run.max_signal_hz = context.settings.denoise.max_signal_hz;
   run.lag_samples = context.lag_samples;
   run.realtime = name == kRealtime;
   if (const auto noise = core::still_noise(context.still_dps))

@@ -32,11 +32,12 @@ class Estimates {
 }  // namespace
 
 core::Contender joint_contender(const JointRun& run, std::span<const double> noisy) {
-  const std::size_t hop = run.hop_samples;
-  const core::JointOptions options;
-  core::JointFit fit(run.window_samples, options);
+  const std::size_t hop = run.options.hop_samples;
+  core::JointFit fit(run.window_samples, run.options);
   fit.set_sample_rate(run.sample_rate_hz);
-  core::KalmanBank bank(options, run.lag_samples);
+  if (run.max_signal_hz > 0.0 && run.sample_rate_hz > 0.0)
+    fit.set_max_signal(run.max_signal_hz / run.sample_rate_hz);
+  core::KalmanBank bank(run.options, run.lag_samples);
   const auto model = std::make_unique<core::JointModel>();
   core::WindowReport report;
   Estimates estimates(noisy.size());

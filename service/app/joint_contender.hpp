@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/evaluation/contender.hpp"
+#include "core/joint/joint_options.hpp"
 #include "core/noise/noise_model.hpp"
 
 namespace gyrod::app {
@@ -13,11 +14,12 @@ namespace gyrod::app {
 struct JointRun {
   double sample_rate_hz = 0.0;  ///< 0 where unknown
   std::size_t window_samples = 1024;
-  std::size_t hop_samples = 32;
   std::size_t lag_samples = 16;  ///< at most core::kMaxLag
   bool realtime = false;         ///< the answers at once, instead of those with the lag
   /// The sensor's, in the record's unit; one that is not usable: the windows' own guess.
   core::NoiseModel noise;
+  core::JointOptions options;  ///< the hop among them
+  double max_signal_hz = 0.0;  ///< what is faster counts as noise; 0: nothing does
 };
 
 /// The model of the window that ends at sample n * hop is used from sample (n + 1) * hop on, as the stream does; windows at the beginning

@@ -1,0 +1,73 @@
+// What `gyrod evaluate` judges, against what `gyrod denoise` gives.
+#include "app/evaluated_methods.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "app/angle_units.hpp"
+#include "app/record_denoiser.hpp"
+#include "support/signals.hpp"
+
+namespace gyrod {
+namespace {
+
+using namespace testing;
+
+constexpr double kJudgedRateHz = 100.0;
+
+/// deg/s: a slow swing and vibration at 20 Hz, in noise.
+Signal shaken(std::size_t size) {
+  return sum(sum(times(tone(size, 0.003), 5.0), tone(size, 0.2)), white_noise(size, 7), 0.1);
+}
+
+std::vector<double> judged(const char* name, const settings::Settings& settings, const Signal& noisy) {
+  const app::MethodContext context{settings, settings.engine.lag_samples, kJudgedRateHz, {}};
+  return app::evaluated_method(name, context).run(noisy).estimate;
+}
+
+/// Root mean square of what an estimate has of the vibration, from sample 2000 on.
+double vibration_of(const std::vector<double>& estimate) {
+  const Signal slow = times(tone(estimate.size(), 0.003), 5.0);
+  double sum = 0.0;
+  for (std::size_t t = 2000; t < estimate.size(); ++t)
+    sum += (estimate[t] - slow[t]) * (estimate[t] - slow[t]);
+  return std::sqrt(sum / static_cast<double>(estimate.size() - 2000));
+}
+
+// 0.71 deg/s as measured; 20 Hz lie twice as high as the band.
+TEST(EvaluatedMethods, TakeOffWhatIsFasterThanTheConfiguredBand) {
+  const Signal noisy = shaken(6000);
+  settings::Settings settings;
+  EXPECT_GT(vibration_of(judged("joint", settings, noisy)), 0.6);
+  settings.denoise.max_signal_hz = 10.0;
+  EXPECT_LT(vibration_of(judged("joint", settings, noisy)), 0.2);
+  EXPECT_LT(vibration_of(judged("realtime", settings, noisy)), 0.4);
+}
+
+// The engine's first window is a whole one, the contender's holds what there is: from then on both have the same models, but for what the
+// filters remember.
+TEST(EvaluatedMethods, AreWhatDenoiseGivesWithTheSameConfiguration) {
+  const Signal noisy = shaken(6000);
+  settings::Settings settings;
+  settings.denoise.max_signal_hz = 10.0;
+  settings.denoise.sifts = 6;
+  settings.engine.hop_samples = 64;
+  settings.engine.lag_samples = 8;
+  files::Record record;
+  record.sample_rate_hz = kJudgedRateHz;
+  for (std::size_t n = 0; n < noisy.size(); ++n) {
+    record.time_s.push_back(static_cast<double>(n) / kJudgedRateHz);
+    record.gyro_radps[2].push_back(app::kRadPerDeg * noisy[n]);
+  }
+  const auto denoised = app::estimate_record(record, settings, app::EstimateKind::kDenoised)[2];
+  const auto estimate = judged("joint", settings, noisy);
+  double worst = 0.0;
+  for (std::size_t t = 3000; t < noisy.size(); ++t)
+    worst = std::max(worst, std::abs(estimate[t] - app::kDegPerRad * denoised[t]));
+  EXPECT_LT(worst, 1e-6);
+}
+
+}  // namespace
+}  // namespace gyrod
