@@ -51,7 +51,10 @@ std::string order_of(Rival rival) {
 
 std::string tuning_words(const core::RivalSetting& setting, double rate_hz) {
   const double parameter = setting.parameter;
-  switch (core::parameter_of(setting.rival)) {
+  const core::RivalParameter kind = core::parameter_of(setting.rival);
+  const bool smooths = kind != core::RivalParameter::kNone && kind != core::RivalParameter::kOffset;
+  if (smooths && parameter == core::pass_through_of(setting.rival)) return "passes all";
+  switch (kind) {
     case core::RivalParameter::kNone:
       return "";
     case core::RivalParameter::kOffset:

@@ -180,6 +180,23 @@ bool is_causal(Rival rival) noexcept { return traits(rival).causal; }
 
 RivalParameter parameter_of(Rival rival) noexcept { return traits(rival).parameter; }
 
+double pass_through_of(Rival rival) noexcept {
+  constexpr double kWithoutEnd = std::numeric_limits<double>::infinity();
+  switch (parameter_of(rival)) {
+    case RivalParameter::kNone:
+    case RivalParameter::kOffset:
+      return 0.0;
+    case RivalParameter::kCutoff:
+      return rival == Rival::kOneEuro ? kWithoutEnd : 0.5;
+    case RivalParameter::kShare:
+    case RivalParameter::kSamples:
+      return 1.0;
+    case RivalParameter::kIndex:
+      break;
+  }
+  return kWithoutEnd;
+}
+
 AlphaBeta alpha_beta_of(double tracking_index) noexcept {
   assert(tracking_index > 0.0);
   const double index = tracking_index;
@@ -191,11 +208,9 @@ AlphaBeta alpha_beta_of(double tracking_index) noexcept {
 
 std::vector<double> rival_output(const RivalSetting& setting, std::span<const double> x) {
   if (x.empty()) return {};
+  if (setting.rival == Rival::kBiasRemoved) return less(setting.parameter, x);
+  if (setting.parameter == pass_through_of(setting.rival)) return {x.begin(), x.end()};
   switch (setting.rival) {
-    case Rival::kRaw:
-      return {x.begin(), x.end()};
-    case Rival::kBiasRemoved:
-      return less(setting.parameter, x);
     case Rival::kExponential:
       return exponential(setting.parameter, x);
     case Rival::kMovingAverage:

@@ -1,6 +1,6 @@
 /// The ordinary filters beside which ours stand.
 ///
-/// Each has one parameter (One-Euro two) that decides how much it smooths. All start as if their first input had been there for ever.
+/// Each has one parameter (One-Euro two) that decides how much it smooths, and a value of it with which it passes everything. All start as if their first input had been there for ever.
 /// Units: any for rates; frequencies in cycles per sample. Functions are pure and may be called from any thread.
 #pragma once
 
@@ -21,8 +21,8 @@ enum class Rival : std::uint8_t {
   kButterworth4,
   kExponential,    ///< y += parameter (x - y); parameter 0..1
   kMovingAverage,  ///< parameter: samples, rounded
-  kSavitzkyGolay,  ///< parabola through the last samples, read `delay` before its end; parameter: samples, rounded
-  kAlphaBeta,   ///< parameter: Kalata's tracking index
+  kSavitzkyGolay,  ///< parabola through the last samples, read `delay` before its end; parameter: samples, rounded, 1 or at least 3
+  kAlphaBeta,      ///< parameter: Kalata's tracking index
   kOneEuro,     ///< parameter: least cut-off; second: cut-off added per root mean square step of the record
   kZeroPhase1,  ///< Butterworth forward and backward, offline only; parameter: cut-off of one pass
   kZeroPhase2,
@@ -47,6 +47,10 @@ inline constexpr std::array<Rival, kRivals> kAllRivals = {
 enum class RivalParameter : std::uint8_t { kNone, kOffset, kCutoff, kShare, kSamples, kIndex };
 [[nodiscard]] RivalParameter parameter_of(Rival rival) noexcept;
 
+/// The parameter with which a filter passes what comes in as it is: a cut-off of half the sample rate (One-Euro, whose cut-off has no end:
+/// infinite), a share of 1, one sample, an infinite index; 0 of what has no parameter to smooth with.
+[[nodiscard]] double pass_through_of(Rival rival) noexcept;
+
 /// One filter with its parameters.
 struct RivalSetting {
   Rival rival = Rival::kRaw;
@@ -57,7 +61,7 @@ struct RivalSetting {
 
 /// Its output: element t is what the filter says when x[t] has come in, about x[t - delay]. Only Savitzky-Golay's depends on the
 /// delay. As long as x.
-/// @pre x is finite; 0 < cut-off < 0.5, 0 < share <= 1, index > 0, samples >= 1
+/// @pre x is finite; 0 < cut-off <= 0.5 (One-Euro: 0 < cut-off), 0 < share <= 1, index > 0, samples >= 1
 [[nodiscard]] std::vector<double> rival_output(const RivalSetting& setting, std::span<const double> x);
 
 /// The same as estimates: element t is of the truth at t; the last `delay` of them, which were never made, are NaN.

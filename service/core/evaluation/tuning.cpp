@@ -1,7 +1,6 @@
 #include "core/evaluation/tuning.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -12,8 +11,12 @@
 namespace gyrod::core {
 namespace {
 
-constexpr double kFastest = 0.499;  // cycles per sample, just below Nyquist's
+constexpr double kFastest = 0.499;       // cycles per sample, just below Nyquist's
+constexpr double kFastestOneEuro = 1e2;  // of which a sample weighs 0.998
 constexpr double kNever = std::numeric_limits<double>::infinity();
+/// Least and largest cut-off, in cycles per sample, that One-Euro adds for a step as large as the root mean square one; besides none.
+constexpr double kLeastSecond = 1e-3;
+constexpr double kLargestSecond = 1e4;
 
 struct Answer {
   double rmse = kNever;
@@ -48,6 +51,16 @@ std::vector<double> whole_lengths(const std::vector<double>& grid) {
   return lengths;
 }
 
+std::vector<double> logarithmic(double low, double high, std::size_t points) {
+  std::vector<double> grid(points);
+  const double steps = static_cast<double>(points - 1);
+  for (std::size_t i = 0; i < points; ++i) {
+    grid[i] = std::exp(std::lerp(std::log(low), std::log(high), static_cast<double>(i) / steps));
+  }
+  grid.back() = high;
+  return grid;
+}
+
 /// Parameters are searched by their logarithm, from the first to the last of the grid.
 std::vector<double> grid_of(Rival rival, const TuningOptions& options) {
   double low = options.slowest;
@@ -60,13 +73,10 @@ std::vector<double> grid_of(Rival rival, const TuningOptions& options) {
   } else if (parameter_of(rival) == RivalParameter::kIndex) {
     low = options.slowest * options.slowest;
     high = 1e2;
+  } else if (rival == Rival::kOneEuro) {
+    high = kFastestOneEuro;
   }
-  std::vector<double> grid(options.grid_points);
-  const double steps = static_cast<double>(options.grid_points - 1);
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    grid[i] = std::exp(std::lerp(std::log(low), std::log(high), static_cast<double>(i) / steps));
-  }
-  grid.back() = high;
+  const std::vector<double> grid = logarithmic(low, high, options.grid_points);
   return parameter_of(rival) == RivalParameter::kSamples ? whole_lengths(grid) : grid;
 }
 
@@ -94,6 +104,21 @@ class Search {
         every_length(i);
       } else {
         golden_section(i);
+      }
+    }
+  }
+
+  /// For a filter with two parameters, of which the grid is this fine: to the best of eight neighbours, and nearer where none is better.
+  void refine_both(double second_ratio) {
+    constexpr int kHalvings = 8;
+    const double ratio = grid_[1] / grid_[0];
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+      if (!std::isfinite(best_[i].rmse)) continue;
+      RivalSetting centre = best_[i].setting;
+      centre.second = std::max(centre.second, kLeastSecond);
+      double step = 0.5;  // in parts of the grid's
+      for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5) {
+        walk(i, centre, std::pow(ratio, step), std::pow(second_ratio, step));
       }
     }
   }
@@ -128,6 +153,24 @@ class Search {
     const auto below = at == grid_.begin() ? at : at - 1;
     const auto above = at + 1 == grid_.end() ? at : at + 1;
     return {*below, *above};
+  }
+
+  /// Moves on as long as one of the neighbours is better; they are so far as the ratios say.
+  void walk(std::size_t i, RivalSetting& centre, double ratio, double second_ratio) {
+    constexpr int kFarthest = 32;
+    for (int moves = 0; moves < kFarthest; ++moves) {
+      const RivalSetting from = centre;
+      const double error = best_[i].rmse;
+      for (const double along : {1.0 / ratio, 1.0, ratio}) {
+        for (const double across : {1.0 / second_ratio, 1.0, second_ratio}) {
+          const double parameter = std::clamp(along * from.parameter, grid_.front(), grid_.back());
+          const double second = across * from.second;
+          offer({rival(), parameter, second < kLeastSecond ? 0.0 : second, 0}, i, i + 1);
+        }
+      }
+      if (!(best_[i].rmse < error)) return;
+      centre = best_[i].setting;
+    }
   }
 
   void every_length(std::size_t i) {
@@ -176,6 +219,15 @@ class Search {
   std::size_t largest_ = 0;
 };
 
+/// Over cut-offs that a step adds, none and such that are half a decade apart.
+void search_both(Search& search) {
+  constexpr std::size_t kSeconds = 15;
+  const std::vector<double> seconds = logarithmic(kLeastSecond, kLargestSecond, kSeconds);
+  search.over_grid(0.0);
+  for (const double second : seconds) search.over_grid(second);
+  search.refine_both(seconds[1] / seconds[0]);
+}
+
 /// The offset that leaves no mean error: nobody can remove a bias better.
 double mean_error(const TuningCase& on) noexcept {
   double sum = 0.0;
@@ -209,15 +261,15 @@ std::vector<TunedRival> tune(Rival rival, const TuningCase& on, std::span<const 
                              const TuningOptions& options) {
   assert(on.noisy.size() == on.truth.size() && !lag_bounds.empty() && options.grid_points >= 3);
   Search search(rival, on, lag_bounds, options);
-  if (rival == Rival::kRaw || rival == Rival::kBiasRemoved) {
-    search.fixed(rival == Rival::kRaw ? 0.0 : mean_error(on));
-    return search.take();
+  if (rival == Rival::kBiasRemoved) {
+    search.fixed(mean_error(on));
+  } else if (rival == Rival::kOneEuro) {
+    search_both(search);
+  } else if (rival != Rival::kRaw) {
+    search.over_grid(0.0);
+    search.refine();
   }
-  // Cut-off, in cycles per sample, that a step as large as the root mean square one adds.
-  constexpr std::array<double, 8> kSeconds = {0.0, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0};
-  const std::size_t seconds = rival == Rival::kOneEuro ? kSeconds.size() : 1;
-  for (std::size_t i = 0; i < seconds; ++i) search.over_grid(kSeconds[i]);
-  search.refine();
+  search.fixed(pass_through_of(rival));
   return search.take();
 }
 

@@ -36,7 +36,8 @@ struct TuningOptions {
 /// The parameter (two for One-Euro) and the delay d, 0 <= d <= bound, any of them, that make
 ///   RMSE = sqrt(mean_t (y[t + d] - truth[t])^2),   t in range, truth and y known,
 /// least, for each of the lag bounds: a logarithmic grid, then golden section between the neighbours of its best point (all integers
-/// between them where the parameter counts samples). A rival that looks at the whole record has d = 0 for every bound. The grid is
+/// between them where the parameter counts samples; by steps in both where there are two parameters), and no smoothing at all
+/// (pass_through_of()), so that none is worse than raw. A rival that looks at the whole record has d = 0 for every bound. The grid is
 /// worked through once for all bounds.
 /// @return one for each bound, in their order  @pre noisy.size() == truth.size(), bounds not empty
 /// Where no sample can be judged rmse is NaN.

@@ -111,6 +111,24 @@ TEST(Rivals, NoneRingsAfterAnOffset) {
   }
 }
 
+TEST(Rivals, PassEverythingWithTheParameterForThat) {
+  const auto x = test::random_walk(500, 1.0, 13);
+  for (const Rival rival : kAllRivals) {
+    EXPECT_EQ(rival_output({rival, pass_through_of(rival), 0.0, 0}, x), x) << name_of(rival);
+  }
+}
+
+// It is the limit of what lies below.
+TEST(Rivals, NearTheParameterThatPassesEverythingNearlyEverythingPasses) {
+  const auto x = test::random_walk(500, 1.0, 13);
+  for (const Rival rival : {Rival::kButterworth1, Rival::kButterworth4, Rival::kZeroPhase2}) {
+    EXPECT_THAT(rival_output({rival, 0.49999}, x), testing::Pointwise(testing::DoubleNear(0.01), x))
+        << name_of(rival);
+  }
+  EXPECT_THAT(rival_output({Rival::kOneEuro, 1e4}, x), testing::Pointwise(testing::DoubleNear(0.01), x));
+  EXPECT_THAT(rival_output({Rival::kAlphaBeta, 1e6}, x), testing::Pointwise(testing::DoubleNear(0.01), x));
+}
+
 TEST(Rivals, AnEstimateStandsAtTheSampleThatItIsOf) {
   const std::vector<double> x = {1.0, 2.0, 3.0, 4.0};
   const auto estimate = rival_estimate({Rival::kRaw, 0.0, 0.0, 1}, x);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,60 @@ TEST(Tuning, NeverLosesByALargerBound) {
         EXPECT_LE(best[i].rmse, best[i - 1].rmse * (1.0 + 1e-4)) << name_of(rival);
       }
     }
+  }
+}
+
+// Whoever tunes may leave the filter out. From noise alone to motion so quick that each filter is best left out.
+TEST(Tuning, IsNeverWorseThanRaw) {
+  constexpr std::array<std::size_t, 2> kBounds = {0, 5};
+  for (const double step : {0.0, 0.1, 1.0, 30.0, 1e4}) {
+    const auto truth = test::random_walk(2000, step, 23);
+    std::vector<double> noisy = test::sum_of(truth, test::white_noise(2000, 1.0, 24));
+    for (const std::size_t late : {0U, 5U}) {
+      std::vector<double> delayed(late, noisy[0]);
+      delayed.insert(delayed.end(), noisy.begin(), noisy.end() - static_cast<std::ptrdiff_t>(late));
+      const TuningCase on{delayed, truth, {100, 1900}};
+      const auto raw = tune(Rival::kRaw, on, kBounds);
+      for (const Rival rival : kAllRivals) {
+        const auto best = tune(rival, on, kBounds);
+        for (std::size_t i = 0; i < kBounds.size(); ++i) {
+          if (i > 0 && !is_causal(rival)) continue;  // answers of no delay
+          EXPECT_LE(best[i].rmse, raw[i].rmse) << name_of(rival) << ", steps of " << step << ", " << late;
+        }
+      }
+    }
+  }
+}
+
+// Without its second parameter it is one; here the best of these has a cut-off beyond the sample rate, gain 0.92.
+TEST(Tuning, OneEuroIsNeverWorseThanTheExponentialAverage) {
+  for (const double step : {0.03, 1.0, 10.0}) {
+    const auto truth = test::random_walk(5000, step, 25);
+    const auto noisy = test::sum_of(truth, test::white_noise(5000, 0.3, 26));
+    const TuningCase on{noisy, truth, {100, 4900}};
+    EXPECT_LE(tune(Rival::kOneEuro, on, kNow)[0].rmse,
+              (1.0 + 1e-4) * tune(Rival::kExponential, on, kNow)[0].rmse)
+        << step;
+  }
+}
+
+// A filter that hardly moves keeps what it began with. Where that happens to be the truth, it is no skill to find it.
+TEST(Tuning, DoesNotTuneOneEuroToAStandstill) {
+  const std::vector<double> truth(5000, 0.0);
+  std::vector<double> noisy = test::white_noise(5000, 1.0, 29);
+  noisy[0] = 0.0;
+  const auto best = tune(Rival::kOneEuro, {noisy, truth, {100, 5000}}, kNow);
+  EXPECT_GE(best[0].setting.parameter, TuningOptions{}.slowest * (1.0 - 1e-12));
+}
+
+// What the filter itself said is the truth: no error is left. Neither parameter lies on a grid.
+TEST(Tuning, FindsBothParametersOfOneEuro) {
+  const auto noisy = test::sum_of(test::random_walk(5000, 0.3, 27), test::white_noise(5000, 1.0, 28));
+  for (const auto& [parameter, second] : {std::pair{0.0123, 0.0456}, std::pair{0.7, 40.0}}) {
+    const auto truth = rival_output({Rival::kOneEuro, parameter, second, 0}, noisy);
+    const auto best = tune(Rival::kOneEuro, {noisy, truth, {0, 5000}}, kNow);
+    EXPECT_NEAR(best[0].setting.parameter, parameter, 0.1 * parameter);
+    EXPECT_NEAR(best[0].setting.second, second, 0.1 * second);
   }
 }
 
