@@ -29,7 +29,7 @@ struct NavigateFlags {
   std::string truth;
   std::string json;
   std::string csv;
-  std::vector<std::string> schemes = {"raw", "acf-emd", "improved"};
+  std::vector<std::string> schemes;
   std::optional<double> rate_hz;
   std::optional<std::size_t> delay_samples;
   double truth_offset_s = 0.0;
@@ -106,6 +106,7 @@ int navigate(NavigateFlags flags, Interrupt& interrupt) {
   if (flags.input == "-") interrupt.let_through();
   check_outputs(flags);
   const settings::Settings settings = load_or_default(flags.config);
+  if (flags.schemes.empty()) flags.schemes = navigated_by_default(settings, flags.whole_record);
   check_navigated(flags.schemes, settings, flags.whole_record);
   std::optional<files::OutputFile> json_file;
   std::optional<files::OutputFile> csv_file;
@@ -162,7 +163,8 @@ void add_input(CLI::App& command, NavigateFlags& flags) {
       .add_option(
           "--schemes", flags.schemes,
           "raw, direct, emd, acf-emd, improved (method paper), joint, realtime (method joint with and "
-          "without look-ahead), separated by commas [raw,acf-emd,improved]")
+          "without look-ahead), separated by commas [raw,joint,realtime,improved; with --whole-record "
+          "raw,acf-emd,improved]")
       ->type_name("LIST")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -21,6 +21,12 @@ std::vector<std::string> navigated_names() {
   return names;
 }
 
+std::vector<std::string> navigated_by_default(const settings::Settings& settings, bool whole_record) {
+  if (whole_record || settings.engine.lag_samples > stream::kMaxModelLagSamples)
+    return {"raw", "acf-emd", "improved"};
+  return {"raw", std::string(kJointName), std::string(kRealtimeName), "improved"};
+}
+
 bool comes_at_once(std::string_view name) noexcept {
   return name == core::name_of(core::Scheme::kRaw) || name == kRealtimeName;
 }

@@ -17,6 +17,11 @@ using NavigatedRates = std::array<std::vector<double>, stream::kAxes>;
 /// The schemes of method paper; `joint` and `realtime`, method joint with look-ahead and without.
 [[nodiscard]] std::vector<std::string> navigated_names();
 
+/// What is compared where nothing is asked for: raw, joint, realtime and improved. Where method joint cannot be had (see check_navigated()), the
+/// schemes of the paper alone: raw, acf-emd, improved.
+[[nodiscard]] std::vector<std::string> navigated_by_default(const settings::Settings& settings,
+                                                            bool whole_record);
+
 /// Whether a version's rates come without delay.
 [[nodiscard]] bool comes_at_once(std::string_view name) noexcept;
 

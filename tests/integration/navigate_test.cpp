@@ -22,6 +22,7 @@ namespace {
 using app::ExitCode;
 using nlohmann::json;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -193,6 +194,22 @@ TEST_F(Navigate, DenoisedRatesAreShownAtTheirStampsAndLate) {
     return all["runs"][run]["pooled"]["rotation_deg"]["total"]["rmse"];
   };
   EXPECT_GT(error(2), 5.0 * error(1));
+}
+
+// What is published by default is compared by default; in one piece there is no method joint.
+TEST_F(Navigate, ComparesWhatTheDaemonPublishesUnlessToldOtherwise) {
+  const auto schemes = [this](std::vector<std::string> more) {
+    more.insert(more.end(), {"--starts", "1", "--delay-samples", "0"});
+    std::vector<std::string> names;
+    const json all = figures({}, more);
+    for (const json& one : all["runs"]) names.push_back(one["scheme"]);
+    return names;
+  };
+  EXPECT_THAT(schemes({}), ElementsAre("raw", "joint", "realtime", "improved"));
+  EXPECT_THAT(schemes({"--whole-record"}), ElementsAre("raw", "acf-emd", "improved"));
+  write_file("late.json",
+             R"({"denoise": {"method": "paper", "lag_samples": 64}, "noise": {"source": "imf1"}})");
+  EXPECT_THAT(schemes({"--config", path("late.json")}), ElementsAre("raw", "acf-emd", "improved"));
 }
 
 TEST_F(Navigate, TruthInAFileHasItsOwnTimes) {
