@@ -42,7 +42,7 @@ core::Method two_speed_method(const std::string& name, const MethodContext& cont
   run.options = joint_options(context.settings);
   run.max_signal_hz = context.settings.denoise.max_signal_hz;
   run.lag_samples = context.lag_samples;
-  run.realtime = name == kRealtime;
+  run.realtime = answers_at_once(name);
   if (const auto noise = core::still_noise(context.still_dps))
     run.noise = core::scaled(*noise, core::kNoiseMargin);
   const auto estimate = [run](std::span<const double> noisy_dps) { return joint_contender(run, noisy_dps); };
@@ -60,6 +60,8 @@ std::vector<std::string> evaluated_method_names() {
   names.emplace_back(kRealtime);
   return names;
 }
+
+bool answers_at_once(const std::string& name) noexcept { return name == kRealtime; }
 
 std::size_t largest_lag(const std::string& name, const settings::Settings& settings) {
   return name == kJoint || name == kRealtime ? core::kMaxLag : settings.engine.window_samples / 4;

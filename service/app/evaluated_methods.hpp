@@ -24,6 +24,9 @@ struct MethodContext {
 /// once.
 [[nodiscard]] std::vector<std::string> evaluated_method_names();
 
+/// Whether a method's answers are of the newest sample, whatever lag it may have.
+[[nodiscard]] bool answers_at_once(const std::string& name) noexcept;
+
 /// Largest lag in samples that a method takes.
 [[nodiscard]] std::size_t largest_lag(const std::string& name, const settings::Settings& settings);
 

@@ -19,7 +19,7 @@ namespace gyrod::app {
 
 struct EvaluationOptions {
   settings::Settings settings;
-  std::vector<std::string> methods = {"improved"};
+  std::vector<std::string> methods = {"joint", "realtime", "improved"};
   std::vector<std::size_t> lag_samples = {0, 8, 16};  ///< rising
   core::SampleRange range;
   bool turns = true;

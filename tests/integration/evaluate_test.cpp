@@ -21,6 +21,7 @@ namespace {
 using app::ExitCode;
 using nlohmann::json;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// One axis, 100 Hz: a slow swing, measured with white noise of 0.2 deg/s and a bias of 0.05 deg/s.
@@ -102,6 +103,28 @@ TEST_F(Evaluate, TunedFiltersBeatRawAndGainByLag) {
     EXPECT_FALSE(lags[1]["tuning"].get<std::string>().empty());
   }
   EXPECT_EQ(estimator(all, "improved")["kind"], "method");
+}
+
+// Each method has filters beside it that may be as late as it is: at the lag of the configuration, and at once.
+TEST_F(Evaluate, JudgesWhatTheDaemonPublishesAtItsOwnLagUnlessToldOtherwise) {
+  write_file("in.csv", Recording{.samples = 3000}.text());
+  write_file("gyrod.json", R"({"denoise": {"lag_samples": 8}})");
+  const Result result = run({"evaluate", path("in.csv"), "--axis", "z", "--lag", "16", "--no-turns",
+                             "--config", path("gyrod.json"), "-o", path("out")});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  const json all = json::parse(read_file("out/evaluation.json"));
+  EXPECT_EQ(all["lags_samples"], json({0, 8, 16}));
+  EXPECT_EQ(all["own_lag_samples"], 8);
+  std::vector<std::string> methods;
+  for (const json& one : all["rows"][0]["estimators"]) {
+    if (one["kind"] == "method") methods.push_back(one["name"]);
+  }
+  EXPECT_THAT(methods, ElementsAre("joint", "realtime", "improved"));
+  const json realtime = estimator(all, "realtime")["lags"];
+  EXPECT_EQ(realtime[2]["lag_samples"], 0);
+  EXPECT_EQ(realtime[2]["lag_bound_samples"], 16);
+  EXPECT_EQ(realtime[2]["rmse_dps"], realtime[0]["rmse_dps"]);
+  EXPECT_LT(estimator(all, "joint")["lags"][1]["rmse_dps"], realtime[0]["rmse_dps"]);
 }
 
 // Where windows simply take turns, second differences at joints are 23 times those elsewhere here.
@@ -204,7 +227,8 @@ TEST_F(Evaluate, SaysWhatIsWrong) {
       {{}, {"--noise-scale", "2"}, ExitCode::kWrongUsage, "need --noise"},
       {{}, {"--from", "5950"}, ExitCode::kWrongUsage, "at least 100"},
       {{}, {"--from", "soon"}, ExitCode::kWrongUsage, "expected samples, as 2400"},
-      {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "takes at most 256"},
+      {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "joint takes at most 32"},
+      {{}, {"--lag", "300", "--methods", "improved"}, ExitCode::kWrongUsage, "takes at most 256"},
       {{}, {"--methods", "magic"}, ExitCode::kWrongUsage, "magic"},
       {{}, {"-o", path("in.csv")}, ExitCode::kFileTrouble, "in.csv"},
   };
