@@ -54,7 +54,7 @@ void check_truth_in(const EvaluationRows& rows, core::SampleRange range) {
 }
 
 EvaluationRows load(const EvaluateFlags& flags, Interrupt& interrupt) {
-  if (flags.input.recording == "-") interrupt.let_through();
+  if (flags.input.recording == "-" || flags.input.noise == "-") interrupt.let_through();
   ProgressBar bar("reading");
   EvaluationInput input = input_of(flags);
   input.progress = [&](std::optional<double> fraction, std::uint64_t rows) {

@@ -93,7 +93,8 @@ void add_noise(CLI::App& command, EvaluateFlags& flags) {
   command
       .add_option(
           "--noise", flags.input.noise,
-          "A recording at rest: its deviation from its mean is added to the truth, sample by sample")
+          "A recording at rest: its deviation from its mean is added to the truth, sample by sample;\n"
+          "- for standard input")
       ->type_name("STILL.csv[.gz]");
   command
       .add_option("--noise-scale", flags.input.noise_scales,
@@ -165,6 +166,8 @@ EvaluationInput input_of(const EvaluateFlags& flags) {
   if (about_noise && input.noise.empty())
     throw CLI::ValidationError("--noise-scale, --noise-axes, --noise-start",
                                "need --noise, the recording at rest");
+  if (input.recording == "-" && input.noise == "-")
+    throw CLI::ValidationError("--noise", "and the recording cannot both be standard input");
   if (input.signal_is_truth && input.noise.empty())
     throw CLI::ValidationError("--signal-is-truth", "needs --noise: without it there would be no error");
   return input;

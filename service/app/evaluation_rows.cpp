@@ -112,10 +112,7 @@ std::vector<double> scaled(std::vector<double> values, double scale) {
 files::Record load_noise(const EvaluationInput& input, double rate_hz) {
   files::RecordOptions options = record_options(input);
   options.other_columns = false;
-  // Without a time column its samples are taken one by one at the signal's rate.
-  if (!options.sample_rate_hz && files::RecordingReader(input.noise, options.reader).stamps_made_up()) {
-    options.sample_rate_hz = rate_hz;
-  }
+  options.assumed_rate_hz = rate_hz;  // its samples are then taken one by one
   files::Record noise = files::load_record(input.noise, options);
   constexpr double kAlike = 0.01;
   if (std::abs(noise.sample_rate_hz / rate_hz - 1.0) > kAlike) {

@@ -219,11 +219,14 @@ class Loader {
 
 }  // namespace
 
-Record load_record(const std::string& path, const RecordOptions& options) {
-  ReaderOptions reader_options = options.reader;
-  reader_options.nominal_rate_hz = options.sample_rate_hz.value_or(reader_options.nominal_rate_hz);
-  RecordingReader reader(path, reader_options);
+Record load_record(const std::string& path, const RecordOptions& given) {
+  RecordOptions options = given;
+  options.reader.nominal_rate_hz = given.sample_rate_hz.value_or(
+      given.assumed_rate_hz.value_or(given.reader.nominal_rate_hz));  // of stamps that are made up
+  RecordingReader reader(path, options.reader);
   const std::string name = path == "-" ? "standard input" : path;
+  const bool assumed = reader.stamps_made_up() && !given.sample_rate_hz && given.assumed_rate_hz;
+  if (assumed) options.sample_rate_hz = given.assumed_rate_hz;
   if (reader.stamps_made_up() && !options.sample_rate_hz) {
     throw FileError(name +
                     ": has no time column, and no sample rate is given; expected a column such as "
@@ -231,7 +234,10 @@ Record load_record(const std::string& path, const RecordOptions& options) {
   }
   Loader loader(reader, options);
   loader.read_all();
-  return loader.record(name);
+  Record record = loader.record(name);
+  record.rate_assumed = assumed;
+  if (assumed) record.rate_given = false;
+  return record;
 }
 
 }  // namespace gyrod::files

@@ -22,6 +22,8 @@ struct RecordOptions {
   /// Hz, above 0. Nothing: from the stamps, and a file without a time column is an error. Given: it holds,
   /// whatever the stamps say.
   std::optional<double> sample_rate_hz;
+  /// Hz, above 0: taken where no rate is given and the file has no time column.
+  std::optional<double> assumed_rate_hz;
   /// Missing or refused samples in a row that are bridged by a straight line; more of them end a stretch.
   std::uint64_t max_bridged_samples = 16;
   /// A rate beyond this is refused, rad/s.
@@ -49,7 +51,8 @@ struct Record {
   std::string name;        ///< of the file, for messages
   RecordingHeader header;  ///< of the file
   double sample_rate_hz = 0.0;
-  bool rate_given = false;  ///< by the user; else the mean rate of the stamps
+  bool rate_given = false;    ///< by the user; else the mean rate of the stamps
+  bool rate_assumed = false;  ///< it is RecordOptions::assumed_rate_hz
   std::vector<double>
       time_s;  ///< since the first sample of the stretch, by stamps (by rate where there are none)
   double first_stamp_s = 0.0;  ///< of the first sample of the stretch, on the file's own clock

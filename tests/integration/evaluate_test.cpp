@@ -173,6 +173,20 @@ TEST_F(Evaluate, AddsTheNoiseOfAStillRecordingAtEachScale) {
   EXPECT_NEAR(estimator(all, "raw", 1)["lags"][0]["bias_dps"], 0.0, 1e-6);
 }
 
+// From a pipe it can be read only once, and it says its columns first. Without stamps it is taken at the signal's rate.
+TEST_F(Evaluate, TakesTheNoiseFromStandardInput) {
+  write_file("in.csv", Recording{}.text());
+  write_file("still.csv", Recording{.amplitude_dps = 0.0, .stamps = false, .truth = ""}.text());
+  const std::string command =
+      "cat '" + path("still.csv") + "' | '" + binary() + "' evaluate '" + path("in.csv") +
+      "' --axis z --methods realtime --lag 0 --no-turns --from 0 --noise - -o '" + path("out") + "'";
+  Process shell({"/bin/sh", "-c", command}, path(""), "shell");
+  ASSERT_EQ(shell.wait(), ExitCode::kDone) << shell.err();
+  const json piped = json::parse(read_file("out/evaluation.json"));
+  EXPECT_EQ(piped["record"]["noise"], "standard input");
+  EXPECT_NEAR(estimator(piped, "raw")["lags"][0]["rmse_dps"], 0.2, 0.006);
+}
+
 TEST_F(Evaluate, TakesTheSignalItselfForTheTruth) {
   write_file("in.csv", Recording{.noise_dps = 0.0, .truth = ""}.text());
   write_file("still.csv", Recording{.amplitude_dps = 0.0, .truth = ""}.text());
@@ -238,6 +252,12 @@ TEST_F(Evaluate, SaysWhatIsWrong) {
     EXPECT_EQ(result.exit_code, one.exit_code) << one.words << '\n' << result.err;
     EXPECT_THAT(result.err, HasSubstr(one.words));
   }
+}
+
+TEST_F(Evaluate, CannotReadBothFromStandardInput) {
+  const Result result = run({"evaluate", "-", "--noise", "-"});
+  EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(result.err, HasSubstr("cannot both be standard input"));
 }
 
 TEST_F(Evaluate, GivesTheSameNumbersTwice) {

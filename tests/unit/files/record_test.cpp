@@ -109,6 +109,26 @@ TEST_F(RecordTest, AsksForARateWhereThereIsNeitherTimeNorRate) {
       ThrowsMessage<FileError>(AllOf(HasSubstr("in.csv"), HasSubstr("no time column"), HasSubstr("--rate"))));
 }
 
+TEST_F(RecordTest, AssumesARateOnlyWhereThereIsNeitherTimeNorRate) {
+  RecordOptions options;
+  options.assumed_rate_hz = 50.0;
+  const Record assumed = load(kHeader + rows(0, 3), options);
+  EXPECT_TRUE(assumed.rate_assumed);
+  EXPECT_FALSE(assumed.rate_given);
+  EXPECT_EQ(assumed.sample_rate_hz, 50.0);
+  EXPECT_DOUBLE_EQ(assumed.time_s[2], 0.04);
+
+  const Record stamped = load("timestamp_s,gyro_x_dps,gyro_y_dps,gyro_z_dps\n0,1,1,1\n0.1,1,1,1\n", options);
+  EXPECT_FALSE(stamped.rate_assumed);
+  EXPECT_DOUBLE_EQ(stamped.sample_rate_hz, 10.0);
+
+  options.sample_rate_hz = 20.0;
+  const Record given = load(kHeader + rows(0, 3), options);
+  EXPECT_FALSE(given.rate_assumed);
+  EXPECT_TRUE(given.rate_given);
+  EXPECT_DOUBLE_EQ(given.time_s[2], 0.1);
+}
+
 TEST_F(RecordTest, SaysSoWhereNoSampleIsGood) {
   EXPECT_THAT([&] { load(std::string(kHeader) + "0,nan,0,0,1,a\n1,nan,0,0,1,a\n"); },
               ThrowsMessage<FileError>(AllOf(HasSubstr("none of its 2 samples"), HasSubstr("in.csv"))));
