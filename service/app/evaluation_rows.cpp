@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "app/angle_units.hpp"
+#include "app/evaluation_truth.hpp"
 #include "core/signal/interpolation.hpp"
 #include "core/signal/moments.hpp"
-#include "files/column_names.hpp"
 #include "files/file_error.hpp"
-#include "files/rate_unit.hpp"
 #include "report/stillness.hpp"
 
 namespace gyrod::app {
@@ -30,48 +29,12 @@ files::RecordOptions record_options(const EvaluationInput& input) {
   return options;
 }
 
-/// PREFIXx_UNIT in deg/s; empty where there is no such column.
-std::vector<double> truth_column(const files::Record& record, const std::string& prefix,
-                                 const std::string& axis) {
-  for (const auto unit : {files::RateUnit::kRadps, files::RateUnit::kMradps, files::RateUnit::kDps,
-                          files::RateUnit::kMdps, files::RateUnit::kDph}) {
-    const auto found = record.others.find(prefix + axis.back() + "_" + std::string(files::spelling_of(unit)));
-    if (found == record.others.end()) continue;
-    const double sign = axis.front() == '-' ? -kDegPerRad : kDegPerRad;
-    std::vector<double> truth = found->second;
-    for (double& value : truth) value = sign * files::to_radps(value, unit);
-    return truth;
-  }
-  return {};
-}
-
 std::vector<double> gyro_column(const files::Record& record, const std::string& axis) {
   std::vector<double> rates = record.gyro_radps[index_of(axis)];
   if (rates.empty()) throw files::FileError(record.name + ": has no column gyro_" + axis.back() + "_UNIT");
   const double sign = axis.front() == '-' ? -kDegPerRad : kDegPerRad;
   for (double& value : rates) value *= sign;
   return rates;
-}
-
-[[noreturn]] void complain_of_no_truth(const files::Record& record, const EvaluationInput& input) {
-  const std::string wanted =
-      input.truth_prefix ? *input.truth_prefix + "x_UNIT" : std::string("truth_x_UNIT or ref_gyro_x_UNIT");
-  throw files::FileError(
-      record.name + ": no truth to compare with; expected columns " + wanted +
-      " and so on for y and z (--truth-columns PREFIX for others), or --noise STILL.csv with "
-      "--signal-is-truth, which takes the recorded rates for the truth; found " +
-      files::names_of(record.others));
-}
-
-std::string prefix_of(const files::Record& record, const EvaluationInput& input) {
-  for (const std::string& prefix : input.truth_prefix ? std::vector<std::string>{*input.truth_prefix}
-                                                      : std::vector<std::string>{"truth_", "ref_gyro_"}) {
-    const auto there = [&](const std::string& axis) {
-      return !truth_column(record, prefix, input.truth_axes[index_of(axis)]).empty();
-    };
-    if (std::ranges::all_of(input.axes, there)) return prefix;
-  }
-  complain_of_no_truth(record, input);
 }
 
 /// NaN between two numbers becomes a straight line; NaN at an end the nearest number.
@@ -140,7 +103,7 @@ class RowMaker {
                              " good samples in one stretch; expected at least " +
                              std::to_string(kFewestOfARow));
     }
-    if (!input_.signal_is_truth) prefix_ = prefix_of(record_, input_);
+    if (!input_.signal_is_truth) prefix_ = truth_prefix(record_, input_);
     all_.truth_columns = input_.signal_is_truth ? "gyro" : prefix_;
     tell_of_gaps();
   }
@@ -162,11 +125,7 @@ class RowMaker {
  private:
   [[nodiscard]] std::vector<double> truth(const std::string& axis) const {
     if (input_.signal_is_truth) return gyro_column(record_, axis);
-    std::vector<double> truth = truth_column(record_, prefix_, input_.truth_axes[index_of(axis)]);
-    if (std::ranges::none_of(truth, [](double value) { return std::isfinite(value); })) {
-      throw files::FileError(record_.name + ": its truth " + prefix_ + axis + " holds no number");
-    }
-    return truth;
+    return truth_rates(record_, prefix_, input_.truth_axes[index_of(axis)]);
   }
 
   [[nodiscard]] EvaluationRow measured_row(const std::string& axis) const {

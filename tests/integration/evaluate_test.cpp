@@ -205,6 +205,13 @@ TEST_F(Evaluate, TurnsTheTruthIntoTheSensorsFrame) {
       7.074, 0.02);
 }
 
+// All spellings that a gyro's columns may have, in any case.
+TEST_F(Evaluate, TakesTheTruthInAnyUnit) {
+  write_file("in.csv", Recording{.truth = "Ref_Z_deg/s"}.text());
+  const json all = figures("in.csv", {"--no-turns", "--methods", "realtime", "--truth-columns", "Ref_"});
+  EXPECT_NEAR(estimator(all, "raw")["lags"][0]["rmse_dps"], 0.206, 0.007);
+}
+
 TEST_F(Evaluate, CountsWhatTheTruthDoesNotKnow) {
   write_file("in.csv", Recording{.lost_from = 3000, .lost_to = 3100}.text());
   const json raw = estimator(figures("in.csv"), "raw")["lags"][0];
@@ -230,10 +237,14 @@ TEST_F(Evaluate, SaysWhatIsWrong) {
        {},
        ExitCode::kFileTrouble,
        "is not known between samples 2000 and 6000"},
-      {{.lost_from = 0, .lost_to = 6000}, {}, ExitCode::kFileTrouble, "no truth to compare with"},
+      {{.lost_from = 0, .lost_to = 6000}, {}, ExitCode::kFileTrouble, "truth_z_dps holds no number"},
+      {{.truth = "truth_z_rpm"}, {}, ExitCode::kFileTrouble, "truth_z_rpm does not end in a unit"},
+      {{.truth = "truth_z"}, {}, ExitCode::kFileTrouble, "radps, mradps, dps, mdps, dph"},
+      {{}, {"--axis", "x,z"}, ExitCode::kFileTrouble, "axis x is missing: there is no column truth_x_UNIT"},
+      {{}, {"--axis", "x,z"}, ExitCode::kFileTrouble, "--axis z judges what has a truth"},
       {{.samples = 50}, {}, ExitCode::kFileTrouble, "holds 50 good samples"},
       {{.stamps = false}, {}, ExitCode::kFileTrouble, "--rate"},
-      {{}, {"--axis", "x"}, ExitCode::kFileTrouble, "no truth"},
+      {{.truth = "gyro_z_noise"}, {}, ExitCode::kFileTrouble, "UNIT one of radps"},
       {{}, {"--noise", fast}, ExitCode::kFileTrouble, "nothing is resampled"},
       {{}, {"--noise", tiny}, ExitCode::kFileTrouble, "holds 50 good samples"},
       {{}, {"--noise", path("none.csv")}, ExitCode::kFileTrouble, "none.csv"},

@@ -1,0 +1,22 @@
+/// The columns of a recording that hold the rates of a better gyro.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/evaluation_rows.hpp"
+#include "files/record.hpp"
+
+namespace gyrod::app {
+
+/// Beginning of the columns that hold the truth of all axes of the input: the prefix that it names, or the first of truth_ and ref_gyro_ that has all.
+/// @param record with its other columns
+/// @throws files::FileError that says which axis lacks what: a column, a unit that is known, or numbers
+[[nodiscard]] std::string truth_prefix(const files::Record& record, const EvaluationInput& input);
+
+/// The rates in column PREFIXx_UNIT, for axis "x", "-x", ..., deg/s; NaN where the cell is no number. Empty where there is no such column with a known
+/// unit and a number.
+[[nodiscard]] std::vector<double> truth_rates(const files::Record& record, const std::string& prefix,
+                                              const std::string& axis);
+
+}  // namespace gyrod::app
