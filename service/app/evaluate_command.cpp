@@ -53,10 +53,9 @@ void check_truth_in(const EvaluationRows& rows, core::SampleRange range) {
   }
 }
 
-EvaluationRows load(const EvaluateFlags& flags, Interrupt& interrupt) {
+EvaluationRows load(const EvaluateFlags& flags, EvaluationInput input, Interrupt& interrupt) {
   if (flags.input.recording == "-" || flags.input.noise == "-") interrupt.let_through();
   ProgressBar bar("reading");
-  EvaluationInput input = input_of(flags);
   input.progress = [&](std::optional<double> fraction, std::uint64_t rows) {
     bar.show(fraction, rows);
     return !interrupt.requested();
@@ -66,10 +65,11 @@ EvaluationRows load(const EvaluateFlags& flags, Interrupt& interrupt) {
 
 int evaluate_or_stop(const EvaluateFlags& flags, Interrupt& interrupt) {
   EvaluationOptions options = options_of(flags);
+  const EvaluationInput input = input_of(flags, options.settings);
   std::optional<EvaluationFolder> folder;
   if (!flags.folder.empty()) folder.emplace(flags.folder);
 
-  const EvaluationRows rows = load(flags, interrupt);
+  const EvaluationRows rows = load(flags, input, interrupt);
   options.range = range_of(flags, rows);
   check_truth_in(rows, options.range);
   std::vector<JudgedRow> judged;

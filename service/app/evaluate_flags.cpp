@@ -9,6 +9,16 @@
 namespace gyrod::app {
 namespace {
 
+/// Each the first time that it is given.
+template <class T>
+void keep_each_once(std::vector<T>& given) {
+  std::vector<T> once;
+  for (const T& one : given) {
+    if (std::ranges::find(once, one) == once.end()) once.push_back(one);
+  }
+  given = std::move(once);
+}
+
 std::string check_sample_or_seconds(const std::string& text) {
   const bool seconds = !text.empty() && text.back() == 's';
   double value = -1.0;
@@ -156,8 +166,12 @@ void add_evaluate_options(CLI::App& command, EvaluateFlags& flags) {
       ->type_name("DIR");
 }
 
-EvaluationInput input_of(const EvaluateFlags& flags) {
+EvaluationInput input_of(const EvaluateFlags& flags, const settings::Settings& settings) {
   EvaluationInput input = flags.input;
+  input.max_rate_radps = settings.engine.max_rate_radps;
+  input.max_bridged_samples = settings.engine.max_bridged_samples;
+  keep_each_once(input.axes);
+  keep_each_once(input.noise_scales);
   if (!flags.truth_prefix.empty()) input.truth_prefix = flags.truth_prefix;
   input.truth_axes = axes_of(flags.truth_axes, "--truth-axes");
   input.noise_axes = axes_of(flags.noise_axes, "--noise-axes");
@@ -170,6 +184,10 @@ EvaluationInput input_of(const EvaluateFlags& flags) {
     throw CLI::ValidationError("--noise", "and the recording cannot both be standard input");
   if (input.signal_is_truth && input.noise.empty())
     throw CLI::ValidationError("--signal-is-truth", "needs --noise: without it there would be no error");
+  const bool about_truth = !flags.truth_prefix.empty() || !flags.truth_axes.empty();
+  if (input.signal_is_truth && about_truth)
+    throw CLI::ValidationError("--signal-is-truth",
+                               "excludes --truth-columns and --truth-axes: no other column is read");
   return input;
 }
 
@@ -177,6 +195,7 @@ EvaluationOptions options_of(const EvaluateFlags& flags) {
   EvaluationOptions options;
   options.settings = load_or_default(flags.config);
   options.methods = flags.methods;
+  keep_each_once(options.methods);
   options.lag_samples = lags_of(flags, options);
   options.turns = !flags.no_turns;
   options.turn_repeats = flags.turn_repeats;

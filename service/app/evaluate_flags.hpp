@@ -31,8 +31,8 @@ struct EvaluateFlags {
 /// @param flags has to outlive the command
 void add_evaluate_options(CLI::App& command, EvaluateFlags& flags);
 
-/// Where truth and noise come from. @throws CLI::ValidationError for flags that do not go together
-[[nodiscard]] EvaluationInput input_of(const EvaluateFlags& flags);
+/// Where truth and noise come from, and what of them is good. @throws CLI::ValidationError for flags that do not go together
+[[nodiscard]] EvaluationInput input_of(const EvaluateFlags& flags, const settings::Settings& settings);
 
 /// What is judged, at which lags: those of the flags, the configuration's, and 0 where a method answers at once, so that each method has a row of
 /// filters beside it that may be as late as it is. The range is left open.

@@ -5,11 +5,14 @@
 #include <span>
 #include <utility>
 
+#include <CLI/CLI.hpp>
+
 #include "app/angle_units.hpp"
 #include "app/evaluation_truth.hpp"
 #include "core/signal/interpolation.hpp"
 #include "core/signal/moments.hpp"
 #include "files/file_error.hpp"
+#include "report/json.hpp"
 #include "report/stillness.hpp"
 
 namespace gyrod::app {
@@ -24,6 +27,8 @@ files::RecordOptions record_options(const EvaluationInput& input) {
   options.reader.skip_broken_rows = input.skip_broken_rows;
   options.reader.allow_missing_axes = true;
   options.sample_rate_hz = input.rate_hz;
+  options.max_rate_radps = input.max_rate_radps;
+  options.max_bridged_samples = input.max_bridged_samples;
   options.other_columns = true;
   options.progress = input.progress;
   return options;
@@ -88,7 +93,25 @@ files::Record load_noise(const EvaluationInput& input, double rate_hz) {
     throw files::FileError(noise.name + ": holds " + std::to_string(noise.size()) +
                            " good samples; expected at least " + std::to_string(kFewestOfARow));
   }
+  if (input.noise_start >= noise.size()) {
+    throw CLI::ValidationError("--noise-start", std::to_string(input.noise_start) + " is beyond the " +
+                                                    std::to_string(noise.size()) + " good samples of " +
+                                                    noise.name);
+  }
   return noise;
+}
+
+/// "2 rows cannot be read and are left out, 3 samples are refused, 5 are bridged by straight lines", of what there is any of.
+std::string losses_of(const files::Record::Counts& counts) {
+  std::string text;
+  const auto add = [&](std::uint64_t count, const char* one, const char* more) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + (count == 1 ? one : more);
+  };
+  add(counts.broken, " row cannot be read and is left out", " rows cannot be read and are left out");
+  add(counts.refused, " sample is refused (no number, out of range, not in order)",
+      " samples are refused (no numbers, out of range, not in order)");
+  add(counts.bridged, " is bridged by a straight line", " are bridged by straight lines");
+  return text;
 }
 
 class RowMaker {
@@ -105,7 +128,7 @@ class RowMaker {
     }
     if (!input_.signal_is_truth) prefix_ = truth_prefix(record_, input_);
     all_.truth_columns = input_.signal_is_truth ? "gyro" : prefix_;
-    tell_of_gaps();
+    tell_of_losses(record_, "judged");
   }
 
   [[nodiscard]] EvaluationRows make() {
@@ -157,14 +180,22 @@ class RowMaker {
     return row;
   }
 
-  void tell_of_gaps() {
-    if (record_.counts.left_out == 0) return;
-    all_.cautions.push_back(record_.name + ": " + std::to_string(record_.counts.gaps) +
-                            " long gaps; the longest stretch is judged, " +
-                            std::to_string(record_.counts.left_out) + " good samples are left out");
+  void tell_of_losses(const files::Record& record, const std::string& what_becomes) {
+    const std::string losses = losses_of(record.counts);
+    if (!losses.empty()) all_.cautions.push_back(record.name + ": " + losses);
+    if (record.counts.gaps == 0) return;
+    all_.cautions.push_back(record.name + ": " + std::to_string(record.counts.gaps) + " long gap" +
+                            (record.counts.gaps == 1 ? "" : "s") + "; the longest stretch is " +
+                            what_becomes + ", " + std::to_string(record.counts.left_out) +
+                            " good samples are left out");
   }
 
   void tell_of_noise(const files::Record& noise) {
+    tell_of_losses(noise, "used");
+    if (noise.rate_assumed) {
+      all_.cautions.push_back(noise.name + ": has no time column; its rate is assumed to be the signal's, " +
+                              report::number_text(all_.rate_hz) + " Hz");
+    }
     for (const std::string& axis : input_.axes) {
       const std::vector<double> rates = gyro_column(noise, input_.noise_axes[index_of(axis)]);
       if (report::stillness(rates, noise.sample_rate_hz).still()) continue;

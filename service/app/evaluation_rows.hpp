@@ -30,6 +30,9 @@ struct EvaluationInput {
   std::vector<double> noise_scales = {1.0};
   std::vector<std::string> axes = {"x", "y", "z"};
   bool skip_broken_rows = false;
+  /// Of both files, as in files::RecordOptions.
+  double max_rate_radps = 175.0;
+  std::uint64_t max_bridged_samples = 16;
   /// As files::RecordOptions::progress.
   std::function<bool(std::optional<double>, std::uint64_t)> progress;
 };
@@ -56,6 +59,8 @@ struct EvaluationRows {
   std::vector<std::string> cautions;
 };
 
+/// What is left out, bridged, repeated or assumed stands in the cautions.
+/// @throws CLI::ValidationError for a noise_start beyond the noise's end
 /// @throws files::FileError for no truth, rates that differ, an axis that a file does not have, less than 100 samples, a truth without a
 /// number
 /// @throws files::Stopped

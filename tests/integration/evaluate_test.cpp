@@ -228,6 +228,8 @@ TEST_F(Evaluate, SaysWhatIsWrong) {
   };
   write_file("fast.csv", Recording{.rate_hz = 200.0, .amplitude_dps = 0.0, .truth = ""}.text());
   write_file("tiny.csv", Recording{.samples = 50, .amplitude_dps = 0.0, .truth = ""}.text());
+  write_file("still.csv", Recording{.amplitude_dps = 0.0, .truth = ""}.text());
+  const std::string still = path("still.csv");
   const std::string fast = path("fast.csv");
   const std::string tiny = path("tiny.csv");
   const std::vector<Case> cases = {
@@ -250,6 +252,18 @@ TEST_F(Evaluate, SaysWhatIsWrong) {
       {{}, {"--noise", path("none.csv")}, ExitCode::kFileTrouble, "none.csv"},
       {{}, {"--signal-is-truth"}, ExitCode::kWrongUsage, "needs --noise"},
       {{}, {"--noise-scale", "2"}, ExitCode::kWrongUsage, "need --noise"},
+      {{},
+       {"--signal-is-truth", "--noise", still, "--truth-columns", "truth_"},
+       ExitCode::kWrongUsage,
+       "excludes --truth-columns"},
+      {{},
+       {"--signal-is-truth", "--noise", still, "--truth-axes", "x,y,z"},
+       ExitCode::kWrongUsage,
+       "excludes --truth-columns"},
+      {{},
+       {"--noise", still, "--noise-start", "6000"},
+       ExitCode::kWrongUsage,
+       "beyond the 6000 good samples"},
       {{}, {"--from", "5950"}, ExitCode::kWrongUsage, "at least 100"},
       {{}, {"--from", "soon"}, ExitCode::kWrongUsage, "expected samples, as 2400"},
       {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "joint takes at most 32"},
@@ -269,6 +283,26 @@ TEST_F(Evaluate, CannotReadBothFromStandardInput) {
   const Result result = run({"evaluate", "-", "--noise", "-"});
   EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
   EXPECT_THAT(result.err, HasSubstr("cannot both be standard input"));
+}
+
+TEST_F(Evaluate, WhatIsSaidTwiceIsJudgedOnce) {
+  write_file("in.csv", Recording{.samples = 3000}.text());
+  write_file("still.csv", Recording{.amplitude_dps = 0.0, .truth = ""}.text());
+  const json all = figures("in.csv", {"--no-turns", "--axis", "z", "--methods", "realtime,improved,realtime",
+                                      "--noise", path("still.csv"), "--noise-scale", "1,2,1"});
+  ASSERT_EQ(all["rows"].size(), 2U);
+  EXPECT_EQ(all["rows"][1]["noise_scale"], 2.0);
+  EXPECT_EQ(all["rows"][0]["guards"].size(), 27U);  // two methods and the Butterworth
+}
+
+// The limits of the configuration hold for what is read: 0.05 rad/s are 2.9 deg/s of the swing's 5.
+TEST_F(Evaluate, RefusesWhatTheConfigurationRefuses) {
+  write_file("in.csv", Recording{.samples = 3000}.text());
+  write_file("gyrod.json", R"({"limits": {"max_rate_radps": 0.05}})");
+  const Result result = evaluate(
+      "in.csv", {"--no-turns", "--methods", "realtime", "--from", "0", "--config", path("gyrod.json")});
+  EXPECT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("caution: "), HasSubstr("samples are refused")));
 }
 
 TEST_F(Evaluate, GivesTheSameNumbersTwice) {

@@ -56,6 +56,8 @@ struct GainTest {
 };
 
 Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& on, const GainTest& test) {
+  if (test.frequency_hz >= on.rate_hz / 2.0)
+    return not_applicable(test.kind, test.limit, "it is not below half the sample rate (Nyquist's)");
   const auto response = added_swing(method, plain, on, test.frequency_hz, test.amplitude_dps);
   if (!response)
     return not_applicable(test.kind, test.limit, "the judged samples hold no whole period of it");

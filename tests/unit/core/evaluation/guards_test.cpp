@@ -151,6 +151,17 @@ TEST(Guards, SayWhyTheyDoNotApply) {
 }
 
 // First-order low-pass, exponential average with share a: group delay at low frequency (1 - a)/a samples.
+// Three minutes at 1.8 Hz: 0.1 Hz has its periods, 1 Hz is nothing that samples could hold.
+TEST(Guards, SayThatASwingIsBeyondHalfTheSampleRate) {
+  const Drive drive;
+  const Method method = method_with(none);
+  const Contender plain = method.run(drive.noisy);
+  const auto all = guards(method, plain, {drive.noisy, drive.truth, {500, 17'500}, 1.8});
+  const auto reason = [&](GuardKind kind) { return std::ranges::find(all, kind, &Guard::kind)->reason; };
+  EXPECT_EQ(reason(GuardKind::kSlowTurnGain), "");
+  EXPECT_NE(reason(GuardKind::kSwingGain).find("Nyquist"), std::string::npos);
+}
+
 TEST(Guards, AddedSwingMeasuresTheGroupDelayOfAFilter) {
   const Drive drive;
   const Method method{"exponential", 0, [](std::span<const double> noisy) {

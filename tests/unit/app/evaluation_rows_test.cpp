@@ -1,0 +1,140 @@
+// What an evaluation is made from: what is left out of two files, and what is said of it.
+#include "app/evaluation_rows.hpp"
+
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "files/file_error.hpp"
+#include "support/scratch_folder.hpp"
+#include "support/signals.hpp"
+
+namespace gyrod {
+namespace {
+
+using namespace testing;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+/// Row n as text; empty: there is none.
+using Row = std::function<std::string(int)>;
+
+class EvaluationRowsTest : public ::testing::Test {
+ protected:
+  static constexpr int kSamples = 3000;
+
+  /// 100 Hz about z, with a truth, in deg/s.
+  static std::string signal_row(int n) { return std::to_string(0.01 * n) + ",1.5,1.25\n"; }
+  /// The rates of a sensor at rest.
+  [[nodiscard]] std::string noise_row(int n) const {
+    return std::to_string(0.01 * n) + "," + std::to_string(noise_[static_cast<std::size_t>(n)]) + "\n";
+  }
+
+  void write_signal(const Row& row = signal_row) const {
+    write("in.csv", "timestamp_s,gyro_z_dps,truth_z_dps\n", row);
+  }
+  void write_noise(const Row& row) const { write("still.csv", "timestamp_s,gyro_z_dps\n", row); }
+  void write_noise() const {
+    write_noise([this](int n) { return noise_row(n); });
+  }
+
+  [[nodiscard]] app::EvaluationInput input() const {
+    app::EvaluationInput input;
+    input.recording = folder_.path("in.csv");
+    input.axes = {"z"};
+    return input;
+  }
+  [[nodiscard]] app::EvaluationInput composite() const {
+    app::EvaluationInput both = input();
+    both.noise = folder_.path("still.csv");
+    return both;
+  }
+
+  ScratchFolder folder_;
+
+ private:
+  void write(const std::string& name, std::string text, const Row& row) const {
+    for (int n = 0; n < kSamples; ++n) text += row(n);
+    folder_.write(name, text);
+  }
+  Signal noise_ = white_noise(kSamples, 5);
+};
+
+TEST_F(EvaluationRowsTest, HaveNothingToSayOfGoodFiles) {
+  write_signal();
+  write_noise();
+  EXPECT_THAT(app::evaluation_rows(input()).cautions, IsEmpty());
+  EXPECT_THAT(app::evaluation_rows(composite()).cautions, IsEmpty());
+}
+
+TEST_F(EvaluationRowsTest, TellWhatIsLostInEitherFile) {
+  const auto spoiled = [](int n, const std::string& row) {
+    if (n == 100 || n == 200) return std::string("nonsense\n");
+    return n == 300 ? "3," + std::string(row.find("1.25") == std::string::npos ? "nan\n" : "nan,1\n") : row;
+  };
+  write_signal([&](int n) { return spoiled(n, signal_row(n)); });
+  write_noise([&](int n) { return spoiled(n, noise_row(n)); });
+  app::EvaluationInput given = composite();
+  given.skip_broken_rows = true;
+  const auto cautions = app::evaluation_rows(given).cautions;
+  for (const char* name : {"in.csv", "still.csv"}) {
+    EXPECT_THAT(cautions, Contains(AllOf(HasSubstr(name), HasSubstr("2 rows cannot be read and are left out"),
+                                         HasSubstr("1 sample is refused"),
+                                         HasSubstr("3 are bridged by straight lines"))));
+  }
+}
+
+TEST_F(EvaluationRowsTest, TellOfALongGapInEitherFile) {
+  const auto torn = [](int n, const std::string& row) { return n >= 2000 && n < 2100 ? "" : row; };
+  write_signal([&](int n) { return torn(n, signal_row(n)); });
+  write_noise([&](int n) { return torn(n, noise_row(n)); });
+  const auto cautions = app::evaluation_rows(composite()).cautions;
+  EXPECT_THAT(cautions,
+              Contains(AllOf(HasSubstr("in.csv"), HasSubstr("1 long gap; the longest stretch is judged"),
+                             HasSubstr("900 good samples are left out"))));
+  EXPECT_THAT(cautions,
+              Contains(AllOf(HasSubstr("still.csv"), HasSubstr("1 long gap; the longest stretch is used"))));
+}
+
+TEST_F(EvaluationRowsTest, TellThatTheRateOfTheNoiseIsAssumed) {
+  write_signal();
+  std::string text = "gyro_z_dps\n";
+  for (int n = 0; n < kSamples; ++n) text += noise_row(n).substr(noise_row(n).find(',') + 1);
+  folder_.write("still.csv", text);
+  EXPECT_THAT(app::evaluation_rows(composite()).cautions,
+              Contains(AllOf(HasSubstr("still.csv"), HasSubstr("assumed to be the signal's, 100.0 Hz"))));
+  app::EvaluationInput given = composite();
+  given.rate_hz = 100.0;
+  EXPECT_THAT(app::evaluation_rows(given).cautions, IsEmpty());
+}
+
+TEST_F(EvaluationRowsTest, RefuseWhatTheLimitsRefuse) {
+  write_signal([](int n) { return n == 50 ? "0.5,60,1\n" : signal_row(n); });
+  app::EvaluationInput given = input();
+  EXPECT_THAT(app::evaluation_rows(given).cautions, IsEmpty());
+  given.max_rate_radps = 1.0;  // 57 deg/s
+  EXPECT_THAT(app::evaluation_rows(given).cautions, Contains(HasSubstr("1 sample is refused")));
+  given.max_bridged_samples = 0;
+  EXPECT_THAT(app::evaluation_rows(given).cautions, Contains(HasSubstr("1 long gap")));
+}
+
+TEST_F(EvaluationRowsTest, DoNotBeginBeyondTheNoise) {
+  write_signal();
+  write_noise();
+  app::EvaluationInput given = composite();
+  given.noise_start = 2999;
+  EXPECT_EQ(app::evaluation_rows(given).samples, 3000U);
+  given.noise_start = 3000;
+  EXPECT_THAT(
+      [&] { static_cast<void>(app::evaluation_rows(given)); },
+      ThrowsMessage<CLI::ValidationError>(AllOf(HasSubstr("--noise-start"), HasSubstr("3000 good samples"))));
+}
+
+}  // namespace
+}  // namespace gyrod
