@@ -8,7 +8,6 @@
 #include "app/record_denoiser.hpp"
 #include "core/denoise/scheme.hpp"
 #include "core/joint/joint_options.hpp"
-#include "core/noise/still_noise.hpp"
 #include "files/record.hpp"
 
 namespace gyrod::app {
@@ -34,7 +33,6 @@ core::JointPattern joints_of(const stream::EngineOptions& engine) {
   return {hop, (hop - engine.lag_samples % hop) % hop};
 }
 
-/// With the noise that the still samples show, if there are enough of them.
 core::Method two_speed_method(const std::string& name, const MethodContext& context) {
   JointRun run;
   run.sample_rate_hz = context.rate_hz;
@@ -43,8 +41,7 @@ core::Method two_speed_method(const std::string& name, const MethodContext& cont
   run.max_signal_hz = context.settings.denoise.max_signal_hz;
   run.lag_samples = context.lag_samples;
   run.realtime = answers_at_once(name);
-  if (const auto noise = core::still_noise(context.still_dps))
-    run.noise = core::scaled(*noise, core::kNoiseMargin);
+  if (context.noise) run.noise = *context.noise;
   const auto estimate = [run](std::span<const double> noisy_dps) { return joint_contender(run, noisy_dps); };
   return {name, run.realtime ? 0 : context.lag_samples, estimate};
 }
@@ -63,12 +60,14 @@ std::vector<std::string> evaluated_method_names() {
 
 bool answers_at_once(const std::string& name) noexcept { return name == kRealtime; }
 
+bool takes_noise_model(const std::string& name) noexcept { return name == kJoint || name == kRealtime; }
+
 std::size_t largest_lag(const std::string& name, const settings::Settings& settings) {
-  return name == kJoint || name == kRealtime ? core::kMaxLag : settings.engine.window_samples / 4;
+  return takes_noise_model(name) ? core::kMaxLag : settings.engine.window_samples / 4;
 }
 
 core::Method evaluated_method(const std::string& name, const MethodContext& context) {
-  if (name == kJoint || name == kRealtime) return two_speed_method(name, context);
+  if (takes_noise_model(name)) return two_speed_method(name, context);
   settings::Settings settings = context.settings;
   settings.engine.lag_samples = context.lag_samples;
   settings.noise.source = settings::NoiseSource::kImf1;  // the paper's schemes know no other

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/evaluation/contender.hpp"
+#include "core/noise/noise_model.hpp"
 #include "settings/settings.hpp"
 
 namespace gyrod::app {
@@ -16,8 +17,7 @@ struct MethodContext {
   const settings::Settings& settings;
   std::size_t lag_samples = 0;  ///< instead of that in the settings
   double rate_hz = 0.0;
-  /// The sensor's noise at rest, for estimators with a noise model; may be empty. Outlives the method.
-  std::span<const double> still_dps;
+  std::optional<core::NoiseModel> noise;  ///< the sensor's, deg/s, for takes_noise_model(); nothing: unknown
 };
 
 /// What --methods takes: "direct", "emd", "acf-emd", "improved"; "joint", the two-speed estimator with a lag, and "realtime", its answers at
@@ -26,6 +26,9 @@ struct MethodContext {
 
 /// Whether a method's answers are of the newest sample, whatever lag it may have.
 [[nodiscard]] bool answers_at_once(const std::string& name) noexcept;
+
+/// Whether a method uses what is known of the sensor's noise, and guesses it where nothing is.
+[[nodiscard]] bool takes_noise_model(const std::string& name) noexcept;
 
 /// Largest lag in samples that a method takes.
 [[nodiscard]] std::size_t largest_lag(const std::string& name, const settings::Settings& settings);

@@ -121,6 +121,7 @@ class RowJudge {
       : row_(row), rate_hz_(rate_hz), options_(options), steps_(steps) {
     judged_.axis = row.axis;
     judged_.noise_scale = row.noise_scale;
+    judged_.noise_is_known = row.known_noise.has_value();
     judged_.noise_std_dps = known_std(row.noise_dps, options.range);
     judged_.truth_std_dps = known_std(row.truth_dps, options.range);
   }
@@ -139,7 +140,7 @@ class RowJudge {
  private:
   [[nodiscard]] std::size_t own_lag() const noexcept { return options_.settings.engine.lag_samples; }
   [[nodiscard]] core::Method method(const std::string& name, std::size_t lag) const {
-    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.still_dps});
+    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.known_noise});
   }
   [[nodiscard]] core::TuningCase tuning_case() const {
     return {row_.noisy_dps, row_.truth_dps, options_.range};

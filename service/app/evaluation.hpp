@@ -72,6 +72,7 @@ struct JudgedRow {
   double noise_scale = 1.0;
   double noise_std_dps = 0.0;
   double truth_std_dps = 0.0;
+  bool noise_is_known = false;  ///< to methods that take a model of it
   std::vector<JudgedEstimator> estimators;
   // With the lag of the configuration: all methods, and the best causal Butterworth.
   std::vector<JudgedGuards> guards;

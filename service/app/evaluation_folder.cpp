@@ -24,7 +24,11 @@ void EvaluationFolder::write(const report::Json& evaluation) const {
   write("evaluation.csv", report::table_csv(estimator_rows(evaluation)));
   write("guards.csv", report::table_csv(guard_rows(evaluation)));
   const report::Json turns = turn_rows(evaluation);
-  if (!turns.empty()) write("turns.csv", report::table_csv(turns));
+  if (turns.empty()) {
+    remove("turns.csv");
+  } else {
+    write("turns.csv", report::table_csv(turns));
+  }
   const std::string title = "Evaluation on " + evaluation.at("record").at("name").get<std::string>();
   write("evaluation.html", report::evaluation_page(title, evaluation));
 }
@@ -33,6 +37,14 @@ void EvaluationFolder::write(const std::string& name, const std::string& text) c
   files::OutputFile file(folder_ / name);
   file.write(text);
   file.close();
+}
+
+void EvaluationFolder::remove(const std::string& name) const {
+  std::error_code error;
+  std::filesystem::remove(folder_ / name, error);
+  if (error)
+    throw files::FileError((folder_ / name).string() +
+                           ": of another run, cannot be removed: " + error.message());
 }
 
 }  // namespace gyrod::app

@@ -8,7 +8,7 @@
 
 namespace gyrod::app {
 
-/// Writes evaluation.html, evaluation.json, evaluation.csv, guards.csv and turns.csv. Each file is there in full or not at all.
+/// Writes evaluation.html, evaluation.json, evaluation.csv, guards.csv and turns.csv; a turns.csv of another run goes where there were no turns. Each file is there in full or not at all.
 class EvaluationFolder {
  public:
   /// Makes the folder, with those above it. @throws files::FileError if it cannot be made or written to
@@ -19,6 +19,7 @@ class EvaluationFolder {
 
  private:
   void write(const std::string& name, const std::string& text) const;
+  void remove(const std::string& name) const;
 
   std::filesystem::path folder_;
 };

@@ -1,11 +1,14 @@
 #include "app/evaluation_report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "app/evaluated_methods.hpp"
 #include "app/version.hpp"
+#include "core/noise/still_noise.hpp"
 #include "core/signal/moments.hpp"
 
 namespace gyrod::app {
@@ -107,11 +110,42 @@ Json histograms_json(const JudgedRow& row) {
   return Json{{"bin_centres_dps", report::rounded(row.bin_centres_dps)}, {"of", std::move(all)}};
 }
 
+/// {"x": "-y"}: of the judged axes.
+Json axes_json(const EvaluationRows& rows, const std::array<std::string, 3>& axes) {
+  Json json = Json::object();
+  for (const std::string& axis : rows.axes) json[axis] = axes[static_cast<std::size_t>(axis[0] - 'x')];
+  return json;
+}
+
+Json record_json(const EvaluationRows& rows) {
+  const bool added = !rows.noise_name.empty();
+  return Json{{"name", rows.name},
+              {"samples", rows.samples},
+              {"sample_rate_hz", rows.rate_hz},
+              {"truth_columns", rows.truth_columns},
+              {"truth_axes", rows.signal_is_truth ? Json(nullptr) : axes_json(rows, rows.truth_axes)},
+              {"noise", added ? Json(rows.noise_name) : Json(nullptr)},
+              {"noise_axes", added ? axes_json(rows, rows.noise_axes) : Json(nullptr)},
+              {"noise_start_sample", added ? Json(rows.noise_start) : Json(nullptr)},
+              {"noise_spare_samples", added ? Json(rows.spare_samples) : Json(nullptr)}};
+}
+
+Json configuration_json(const EvaluationOptions& options) {
+  const stream::EngineOptions& engine = options.settings.engine;
+  return Json{{"methods", options.methods},
+              {"window_samples", engine.window_samples},
+              {"hop_samples", engine.hop_samples},
+              {"lag_samples", engine.lag_samples},
+              {"max_signal_hz", options.settings.denoise.max_signal_hz},
+              {"turn_repeats", options.turns ? Json(options.turn_repeats) : Json(nullptr)}};
+}
+
 Json row_json(const JudgedRow& row) {
   return Json{{"axis", row.axis},
               {"noise_scale", row.noise_scale},
               {"noise_std_dps", row.noise_std_dps},
               {"truth_std_dps", row.truth_std_dps},
+              {"noise_model", noise_model_words(row)},
               {"estimators", estimators_json(row)},
               {"guards", guards_json(row)},
               {"turns", turns_json(row)},
@@ -135,21 +169,41 @@ Json with_axis(const Json& evaluation, const char* list) {
 
 }  // namespace
 
+std::vector<std::string> cautions_of(const Evaluation& evaluation) {
+  const auto& [rows, options, judged] = evaluation;
+  std::vector<std::string> all = rows.cautions;
+  const bool guessed = std::ranges::any_of(options.methods, takes_noise_model) &&
+                       !std::ranges::all_of(judged, &JudgedRow::noise_is_known);
+  if (!guessed) return all;
+  const std::string how =
+      "joint and realtime guess it from each window, as the daemon does without a calibration until the "
+      "sensor has been at rest";
+  if (rows.noise_name.empty()) {
+    all.push_back("nothing is known of the noise: " + how);
+  } else {
+    all.push_back(
+        rows.noise_name + ": " + std::to_string(rows.spare_samples) +
+        " samples that are not added are too few to tell the noise, or do not vary (expected at least " +
+        std::to_string(core::kMinStillSamples) + "); " + how);
+  }
+  return all;
+}
+
+const char* noise_model_words(const JudgedRow& row) noexcept {
+  return row.noise_is_known ? "calibrated from the other samples of the noise file" : "unknown";
+}
+
 Json evaluation_json(const Evaluation& evaluation) {
   const auto& [rows, options, judged] = evaluation;
   Json json{{"format", 1},
             {"made_by", std::string("gyrod ") + version()},
-            {"record",
-             {{"name", rows.name},
-              {"samples", rows.samples},
-              {"sample_rate_hz", rows.rate_hz},
-              {"truth_columns", rows.truth_columns},
-              {"noise", rows.noise_name.empty() ? Json(nullptr) : Json(rows.noise_name)}}},
+            {"record", record_json(rows)},
+            {"configuration", configuration_json(options)},
             {"judged_from_sample", options.range.begin},
             {"judged_to_sample", options.range.end},
             {"lags_samples", options.lag_samples},
             {"own_lag_samples", options.settings.engine.lag_samples},
-            {"cautions", rows.cautions}};
+            {"cautions", cautions_of(evaluation)}};
   json["rows"] = Json::array();
   for (const JudgedRow& row : judged) json["rows"].push_back(row_json(row));
   return json;

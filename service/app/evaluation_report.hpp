@@ -16,6 +16,12 @@ struct Evaluation {
   const std::vector<JudgedRow>& judged;
 };
 
+/// Those of the rows, and what the methods did without.
+[[nodiscard]] std::vector<std::string> cautions_of(const Evaluation& evaluation);
+
+/// What methods with a model of the noise had of this row: "calibrated from the other samples of the noise file" or "unknown".
+[[nodiscard]] const char* noise_model_words(const JudgedRow& row) noexcept;
+
 /// What the page reads, and evaluation.json holds. Units stand in every key; gains, shares and verdicts have none.
 [[nodiscard]] report::Json evaluation_json(const Evaluation& evaluation);
 

@@ -9,6 +9,7 @@
 
 #include "app/angle_units.hpp"
 #include "app/evaluation_truth.hpp"
+#include "core/noise/still_noise.hpp"
 #include "core/signal/interpolation.hpp"
 #include "core/signal/moments.hpp"
 #include "files/file_error.hpp"
@@ -72,6 +73,15 @@ std::vector<double> stretch(std::span<const double> all, std::size_t start, std:
   return part;
 }
 
+/// What stretch() does not take: before it and behind it.
+std::vector<std::span<const double>> spare(std::span<const double> all, std::size_t start,
+                                           std::size_t samples) {
+  const std::size_t end = start + samples;
+  if (end <= all.size()) return {all.first(start), all.subspan(end)};
+  const std::size_t again = std::min(end - all.size(), start);
+  return {all.subspan(again, start - again)};
+}
+
 std::vector<double> scaled(std::vector<double> values, double scale) {
   for (double& value : values) value *= scale;
   return values;
@@ -126,6 +136,11 @@ class RowMaker {
                              " good samples in one stretch; expected at least " +
                              std::to_string(kFewestOfARow));
     }
+    all_.signal_is_truth = input_.signal_is_truth;
+    all_.axes = input_.axes;
+    all_.truth_axes = input_.truth_axes;
+    all_.noise_axes = input_.noise_axes;
+    all_.noise_start = input_.noise_start;
     if (!input_.signal_is_truth) prefix_ = truth_prefix(record_, input_);
     all_.truth_columns = input_.signal_is_truth ? "gyro" : prefix_;
     tell_of_losses(record_, "judged");
@@ -139,6 +154,8 @@ class RowMaker {
     const files::Record noise = load_noise(input_, record_.sample_rate_hz);
     all_.noise_name = noise.name;
     tell_of_noise(noise);
+    for (const auto part : spare(noise.time_s, input_.noise_start, record_.size()))
+      all_.spare_samples += part.size();
     for (const double scale : input_.noise_scales) {
       for (const std::string& axis : input_.axes) all_.rows.push_back(composite_row(axis, scale, noise));
     }
@@ -171,10 +188,8 @@ class RowMaker {
     row.truth_dps = truth(axis);
     const std::size_t samples = row.truth_dps.size();
     row.noise_dps = scaled(without_mean(stretch(all, input_.noise_start, samples)), scale);
-    const std::size_t end = input_.noise_start + samples;
-    if (end + kFewestOfARow <= all.size()) {
-      row.still_dps = scaled(without_mean(stretch(all, end, all.size() - end)), scale);
-    }
+    if (const auto model = core::still_noise(spare(all, input_.noise_start, samples)))
+      row.known_noise = core::scaled(*model, scale * core::kNoiseMargin);
     row.noisy_dps = with_gaps_bridged(row.truth_dps);
     for (std::size_t n = 0; n < samples; ++n) row.noisy_dps[n] += row.noise_dps[n];
     return row;
@@ -203,8 +218,8 @@ class RowMaker {
                               " moves; its motion counts as noise");
     }
     if (input_.noise_start + record_.size() <= noise.size()) return;
-    all_.cautions.push_back(noise.name + ": " + std::to_string(noise.size()) + " samples from " +
-                            std::to_string(input_.noise_start) + " on are too few for " +
+    all_.cautions.push_back(noise.name + ": " + std::to_string(noise.size() - input_.noise_start) +
+                            " samples from " + std::to_string(input_.noise_start) + " on are too few for " +
                             std::to_string(record_.size()) +
                             " of the signal; they begin again from the first");
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/noise/noise_model.hpp"
 #include "files/record.hpp"
 
 namespace gyrod::app {
@@ -37,7 +38,7 @@ struct EvaluationInput {
   std::function<bool(std::optional<double>, std::uint64_t)> progress;
 };
 
-/// All series are equally long but still_dps.
+/// All series are equally long.
 struct EvaluationRow {
   std::string axis;
   double noise_scale = 1.0;
@@ -45,14 +46,21 @@ struct EvaluationRow {
   std::vector<double> noisy_dps;  ///< finite
   std::vector<double>
       noise_dps;  ///< finite, mean 0: what is added, or measured minus true, where the truth is lost by straight lines
-  std::vector<double>
-      still_dps;  ///< the same noise where it is not added, for methods that know the sensor's noise; may be empty
+  /// The noise of the samples that are not added, core::kNoiseMargin included, deg/s, for methods that know the sensor's noise; nothing: they are too
+  /// few, or there is no noise recording.
+  std::optional<core::NoiseModel> known_noise;
 };
 
 struct EvaluationRows {
   std::string name;           ///< of the recording
   std::string noise_name;     ///< empty: none was added
   std::string truth_columns;  ///< "ref_gyro_", or "gyro" where the signal is the truth
+  bool signal_is_truth = false;
+  std::vector<std::string> axes;          ///< judged
+  std::array<std::string, 3> truth_axes;  ///< of x, y, z
+  std::array<std::string, 3> noise_axes;
+  std::size_t noise_start = 0;    ///< first sample that is added
+  std::size_t spare_samples = 0;  ///< of the noise, that are not added
   double rate_hz = 0.0;
   std::size_t samples = 0;
   std::vector<EvaluationRow> rows;  ///< all axes of the first scale, then of the next

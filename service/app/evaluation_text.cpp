@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/evaluation_report.hpp"
 
@@ -40,19 +41,47 @@ std::string fixed(const std::optional<double>& value, int decimals, double facto
   return value ? fixed(factor * *value, decimals) : "-";
 }
 
+/// "x from -y, z from z": of the judged axes.
+std::string mapped(const EvaluationRows& rows, const std::array<std::string, 3>& axes) {
+  std::string text;
+  for (const std::string& axis : rows.axes)
+    text += (text.empty() ? "" : ", ") + axis + " from " + axes[static_cast<std::size_t>(axis[0] - 'x')];
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// What was run on what, so that it can be run again.
 std::string head(const Evaluation& evaluation) {
   const auto& [rows, options, judged] = evaluation;
+  const stream::EngineOptions& engine = options.settings.engine;
+  const double max_signal_hz = options.settings.denoise.max_signal_hz;
   std::string text = rows.name + ": " + std::to_string(rows.samples) + " samples at " +
-                     report::number_text(rows.rate_hz) + " Hz, truth " + rows.truth_columns + "x, ...";
-  if (!rows.noise_name.empty()) text += "; noise of " + rows.noise_name + " added sample by sample";
-  return text + "\njudged: samples " + std::to_string(options.range.begin) + " to " +
-         std::to_string(options.range.end) + "\n";
+                     report::number_text(rows.rate_hz) + " Hz, truth " +
+                     (rows.signal_is_truth ? "the rates themselves"
+                                           : rows.truth_columns + ": " + mapped(rows, rows.truth_axes)) +
+                     "\n";
+  if (!rows.noise_name.empty()) {
+    text += "noise of " + rows.noise_name + ": " + mapped(rows, rows.noise_axes) + ", from sample " +
+            std::to_string(rows.noise_start) + " on, added sample by sample\n";
+  }
+  return text + "judged: " + joined(options.methods) + " on samples " + std::to_string(options.range.begin) +
+         " to " + std::to_string(options.range.end) + "; window " + std::to_string(engine.window_samples) +
+         ", hop " + std::to_string(engine.hop_samples) + ", lag " + std::to_string(engine.lag_samples) +
+         " samples, " +
+         (max_signal_hz > 0.0 ? "signal up to " + short_number(max_signal_hz) + " Hz"
+                              : "signal of any frequency") +
+         "\n";
 }
 
 std::string row_name(const JudgedRow& row) {
   return "axis " + row.axis + ", noise " + fixed(row.noise_std_dps, 3) + " deg/s" +
          (row.noise_scale == 1.0 ? std::string() : " (scaled by " + short_number(row.noise_scale) + ")") +
-         ", motion " + fixed(row.truth_std_dps, 3) + " deg/s";
+         ", motion " + fixed(row.truth_std_dps, 3) + " deg/s; noise model " + noise_model_words(row);
 }
 
 std::string line_of(const JudgedEstimator& estimator) {
@@ -123,7 +152,7 @@ std::string turns_table(const JudgedRow& row) {
 
 std::string evaluation_text(const Evaluation& evaluation) {
   std::string text = head(evaluation);
-  for (const std::string& caution : evaluation.rows.cautions) text += "caution: " + caution + "\n";
+  for (const std::string& caution : cautions_of(evaluation)) text += "caution: " + caution + "\n";
   for (const JudgedRow& row : evaluation.judged) {
     text += errors_table(row, evaluation.options) + guards_table(row) + turns_table(row);
   }

@@ -32,10 +32,28 @@
       `${record.samples.toLocaleString("en")} samples, ${number(record.sample_rate_hz)} Hz, truth ${record.truth_columns}…` +
       `${record.noise === null ? "" : `, noise of ${record.noise}`}, judged: samples ${evaluation.judged_from_sample} to ${evaluation.judged_to_sample}`;
     summary(byId("summary"));
+    run(byId("run"));
     for (const caution of evaluation.cautions) byId("summary").append(element("p", caution, "absent"));
     const files = [["evaluation.json", "all numbers of this page"], ["evaluation.csv", "errors: a row an axis, noise, estimator and lag"], ["guards.csv", "guards"]];
     if (evaluation.rows.some((row) => row.turns.length > 0)) files.push(["turns.csv", "turns"]);
     table(byId("files"), "All numbers of this page", ["file", "holds"], files.map((cells) => ({ cells })), [0, 1]);
+  }
+
+  /// So that it can be run again.
+  function run(parent) {
+    const { record, configuration: how } = evaluation;
+    const mapped = (axes) => Object.entries(axes).map(([axis, of]) => `${axis} from ${of}`).join(", ");
+    const rows = [
+      ["recording", record.name],
+      ["truth", record.truth_axes === null ? "the recorded rates themselves" : `${record.truth_columns}…: ${mapped(record.truth_axes)}`],
+      ["noise", record.noise === null ? "the recording's own" : `${record.noise}: ${mapped(record.noise_axes)}, from sample ${record.noise_start_sample} on; ${record.noise_spare_samples} samples are not added`],
+      ["methods", how.methods.join(", ")],
+      ["window, hop, lag", `${how.window_samples}, ${how.hop_samples}, ${how.lag_samples} samples`],
+      ["max_signal_hz", how.max_signal_hz === 0 ? "0: all is signal" : `${tick(how.max_signal_hz)}`],
+      ["turns", how.turn_repeats === null ? "none" : `${how.turn_repeats} runs each`],
+      ...evaluation.rows.map((row) => [`noise model, ${rowName(row)}`, row.noise_model]),
+    ];
+    table(parent, "What was run", ["what", "is"], rows.map((cells) => ({ cells })), [0, 1], [1]);
   }
 
   /// With at most so much lag. All lags that methods have by the configuration are among those that were judged.

@@ -187,7 +187,7 @@ async function print(browser, report) {
 const kFigures = ["Fig. 3", "Fig. 4", "Fig. 5", "Fig. 6", "Fig. 7", "Figs 8, 9", "Fig. 10"];
 const kTables = ["Table 4", "Table 5", "Table 6"];
 const kEvaluationFigures = ["RMSE by lag", "Errors, how often", "10 deg/s within 0.3 s", "2 deg/s within 0.3 s", "20 deg/s^2 for 1 s"];
-const kEvaluationTables = ["RMSE in deg/s, each method at its own lag", "RMSE in deg/s by lag", "More of the errors", "What an estimate must not do", "Turns in numbers", "All numbers"];
+const kEvaluationTables = ["RMSE in deg/s, each method at its own lag", "RMSE in deg/s by lag", "More of the errors", "What an estimate must not do", "Turns in numbers", "What was run", "All numbers"];
 const kNavigationFigures = ["Fig. 11", "Fig. 12", "Fig. 13"];
 const kNavigationTables = ["Table 7", "Table 8", "Table 9"];
 

@@ -1,6 +1,7 @@
 /// `gyrod evaluate`: an error that is known is found; filters are tuned; what cannot be done is said.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -171,6 +172,54 @@ TEST_F(Evaluate, AddsTheNoiseOfAStillRecordingAtEachScale) {
   EXPECT_NEAR(estimator(all, "raw", 0)["lags"][0]["rmse_dps"], 0.1, 0.003);
   EXPECT_NEAR(estimator(all, "raw", 1)["lags"][0]["rmse_dps"], 0.4, 0.012);
   EXPECT_NEAR(estimator(all, "raw", 1)["lags"][0]["bias_dps"], 0.0, 1e-6);
+}
+
+// All that decided on the numbers, and what nothing was known of.
+TEST_F(Evaluate, RecordsWhatWasRun) {
+  write_file("in.csv", Recording{.samples = 3000, .truth = "ref_gyro_x_dps"}.text());
+  write_file("still.csv", Recording{.amplitude_dps = 0.0, .truth = ""}.text());
+  write_file("gyrod.json", R"({"denoise": {"hop_samples": 64, "max_signal_hz": 20}})");
+  const json own = figures("in.csv", {"--no-turns", "--methods", "realtime", "--truth-axes=z,y,-x",
+                                      "--config", path("gyrod.json")});
+  EXPECT_EQ(own["record"]["truth_axes"], json({{"z", "-x"}}));
+  EXPECT_EQ(own["record"]["noise_axes"], nullptr);
+  EXPECT_EQ(own["configuration"], json({{"methods", {"realtime"}},
+                                        {"window_samples", 1024},
+                                        {"hop_samples", 64},
+                                        {"lag_samples", 16},
+                                        {"max_signal_hz", 20.0},
+                                        {"turn_repeats", nullptr}}));
+  EXPECT_EQ(own["rows"][0]["noise_model"], "unknown");
+  EXPECT_THAT(own["cautions"].dump(), HasSubstr("nothing is known of the noise"));
+
+  const json added = figures("in.csv", {"--no-turns", "--methods", "realtime", "--signal-is-truth", "--noise",
+                                        path("still.csv"), "--noise-axes=-z", "--noise-start", "500"});
+  EXPECT_EQ(added["record"]["truth_axes"], nullptr);
+  EXPECT_EQ(added["record"]["noise_axes"], json({{"z", "-z"}}));
+  EXPECT_EQ(added["record"]["noise_start_sample"], 500);
+  EXPECT_EQ(added["record"]["noise_spare_samples"], 3000);
+  EXPECT_EQ(added["rows"][0]["noise_model"], "calibrated from the other samples of the noise file");
+  EXPECT_EQ(added["cautions"], json::array());
+}
+
+TEST_F(Evaluate, PutsWhatWasRunAboveTheTable) {
+  write_file("in.csv", Recording{.samples = 3000, .truth = "ref_gyro_x_dps"}.text());
+  write_file("still.csv", Recording{.amplitude_dps = 0.0, .truth = ""}.text());
+  const Result result = evaluate(
+      "in.csv", {"--no-turns", "--methods", "realtime", "--truth-axes=z,y,-x", "--noise", path("still.csv")});
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("truth ref_gyro_: z from -x\n"), HasSubstr("z from z, from sample 0 on"),
+                    HasSubstr("judged: realtime on samples 0 to 3000; window 1024, hop 32, lag 16 "
+                              "samples, signal of any frequency\n"),
+                    HasSubstr("noise model calibrated from")));
+}
+
+TEST_F(Evaluate, LeavesNoTurnsOfAnotherRun) {
+  write_file("in.csv", Recording{.samples = 3000}.text());
+  static_cast<void>(figures("in.csv", {"--methods", "realtime", "--turn-repeats", "1"}));
+  EXPECT_NE(read_file("out/turns.csv"), "");
+  static_cast<void>(figures("in.csv", {"--methods", "realtime", "--no-turns"}));
+  EXPECT_FALSE(std::filesystem::exists(path("out/turns.csv")));
 }
 
 // From a pipe it can be read only once, and it says its columns first. Without stamps it is taken at the signal's rate.

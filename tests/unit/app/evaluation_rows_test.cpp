@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "files/file_error.hpp"
+#include "core/noise/noise_model.hpp"
 #include "support/scratch_folder.hpp"
 #include "support/signals.hpp"
 
@@ -36,10 +36,10 @@ class EvaluationRowsTest : public ::testing::Test {
     return std::to_string(0.01 * n) + "," + std::to_string(noise_[static_cast<std::size_t>(n)]) + "\n";
   }
 
-  void write_signal(const Row& row = signal_row) const {
-    write("in.csv", "timestamp_s,gyro_z_dps,truth_z_dps\n", row);
+  void write_signal(const Row& row = signal_row, int samples = kSamples) const {
+    write("in.csv", "timestamp_s,gyro_z_dps,truth_z_dps\n", row, samples);
   }
-  void write_noise(const Row& row) const { write("still.csv", "timestamp_s,gyro_z_dps\n", row); }
+  void write_noise(const Row& row) const { write("still.csv", "timestamp_s,gyro_z_dps\n", row, kSamples); }
   void write_noise() const {
     write_noise([this](int n) { return noise_row(n); });
   }
@@ -59,8 +59,8 @@ class EvaluationRowsTest : public ::testing::Test {
   ScratchFolder folder_;
 
  private:
-  void write(const std::string& name, std::string text, const Row& row) const {
-    for (int n = 0; n < kSamples; ++n) text += row(n);
+  void write(const std::string& name, std::string text, const Row& row, int samples) const {
+    for (int n = 0; n < samples; ++n) text += row(n);
     folder_.write(name, text);
   }
   Signal noise_ = white_noise(kSamples, 5);
@@ -122,6 +122,40 @@ TEST_F(EvaluationRowsTest, RefuseWhatTheLimitsRefuse) {
   EXPECT_THAT(app::evaluation_rows(given).cautions, Contains(HasSubstr("1 sample is refused")));
   given.max_bridged_samples = 0;
   EXPECT_THAT(app::evaluation_rows(given).cautions, Contains(HasSubstr("1 long gap")));
+}
+
+// Of 3000 samples of noise a signal of 800 takes those from 1000 on, in which the noise is ten times as strong.
+TEST_F(EvaluationRowsTest, KnowTheNoiseFromBothSidesOfWhatIsAdded) {
+  write_signal(signal_row, 800);
+  write_noise([this](int n) {
+    const double factor = n >= 1000 && n < 1800 ? 10.0 : 1.0;
+    return std::to_string(0.01 * n) + "," +
+           std::to_string(factor * std::stod(noise_row(n).substr(noise_row(n).find(',') + 1))) + "\n";
+  });
+  app::EvaluationInput given = composite();
+  given.noise_start = 1000;
+  given.noise_scales = {1.0, 3.0};
+  const app::EvaluationRows all = app::evaluation_rows(given);
+  EXPECT_EQ(all.spare_samples, 2200U);
+  ASSERT_TRUE(all.rows[0].known_noise && all.rows[1].known_noise);
+  // 2200 samples give a variance to 3 %; the margin of 2 % in level is 4 % in variance.
+  EXPECT_NEAR(core::noise_variance(*all.rows[0].known_noise), 1.04, 0.12);
+  EXPECT_NEAR(core::noise_variance(*all.rows[1].known_noise),
+              9.0 * core::noise_variance(*all.rows[0].known_noise), 1e-9);
+}
+
+TEST_F(EvaluationRowsTest, KnowTheNoiseFromWhatLiesBetweenWhereItBeginsAgain) {
+  write_signal(signal_row, 900);
+  write_noise();
+  app::EvaluationInput given = composite();
+  given.noise_start = 2800;  // to the end, and the first 700
+  EXPECT_EQ(app::evaluation_rows(given).spare_samples, 2100U);
+  EXPECT_TRUE(app::evaluation_rows(given).rows[0].known_noise);
+  write_signal(signal_row, 1100);  // the first 900: 1900 are left, less than are needed
+  EXPECT_EQ(app::evaluation_rows(given).spare_samples, 1900U);
+  EXPECT_FALSE(app::evaluation_rows(given).rows[0].known_noise);
+  write_signal();
+  EXPECT_EQ(app::evaluation_rows(given).spare_samples, 0U);
 }
 
 TEST_F(EvaluationRowsTest, DoNotBeginBeyondTheNoise) {
