@@ -42,9 +42,11 @@ Json lag_json(const JudgedLag& lag) {
             {"lag_samples", lag.lag_samples},
             {"tuning", lag.tuning},
             {"rmse_dps", figures.rmse},
+            {"rmse_without_bias_dps", figures.rmse_without_bias},
             {"bias_dps", value_of(figures.bias)},
             {"bias_standard_error_dps", error_of(figures.bias)},
-            {"normalised_error", number(figures.normalised_error)}};
+            {"normalised_error", number(figures.normalised_error)},
+            {"normalised_error_without_bias", number(figures.normalised_error_without_bias)}};
   add_angle(json, "10s", figures.angle_10s);
   add_angle(json, "60s", figures.angle_60s);
   json["scale_factor"] = value_of(figures.scale_factor);

@@ -14,6 +14,7 @@ namespace {
 constexpr int kNameWidth = 26;
 constexpr int kNumberWidth = 9;
 constexpr int kAngleWidth = 12;
+constexpr int kNormalisedWidth = 14;
 
 std::string padded(const std::string& text, int width) {
   const std::size_t wanted =
@@ -90,7 +91,12 @@ std::string line_of(const JudgedEstimator& estimator) {
   for (const JudgedLag& lag : estimator.lags) text += right(fixed(lag.figures.rmse, 4));
   const JudgedLag& last = estimator.lags.back();
   const auto& angle = last.figures.angle_60s ? last.figures.angle_60s : last.figures.angle_10s;
-  text += right(angle ? fixed(angle->rms, 3) : "-", kAngleWidth);
+  text += right(fixed(last.figures.rmse_without_bias, 4), kAngleWidth) +
+          right(angle ? fixed(angle->rms, 3) : "-", kAngleWidth);
+  text += right(last.figures.normalised_error ? fixed(last.figures.normalised_error, 2) + " / " +
+                                                    fixed(last.figures.normalised_error_without_bias, 2)
+                                              : "-",
+                kNormalisedWidth);
   if (!last.tuning.empty()) text += "   " + last.tuning;
   if (estimator.kind == EstimatorKind::kFilter) text += ", lag " + std::to_string(last.lag_samples);
   return text + "\n";
@@ -100,7 +106,9 @@ std::string errors_table(const JudgedRow& row, const EvaluationOptions& options)
   const JudgedLag& first = row.estimators.front().lags.back();
   std::string text = "\n" + row_name(row) + "\n  " + left("RMSE, deg/s, by lag", kNameWidth);
   for (const std::size_t lag : options.lag_samples) text += right(std::to_string(lag));
-  text += right(first.figures.angle_60s ? "60 s, deg" : "10 s, deg", kAngleWidth) + "\n";
+  text += right("less bias", kAngleWidth) +
+          right(first.figures.angle_60s ? "60 s, deg" : "10 s, deg", kAngleWidth) +
+          right("normalised", kNormalisedWidth) + "\n";
   for (const JudgedEstimator& estimator : row.estimators) text += line_of(estimator);
   if (first.figures.lost_truth > 0) {
     text += "  " + std::to_string(first.figures.lost_truth) + " samples have no truth and are not judged\n";
@@ -159,9 +167,12 @@ std::string evaluation_text(const Evaluation& evaluation) {
   text +=
       "\n* tuned on the truth, which no user can do: the order and cut-off (or length, ...) and the delay up "
       "to the lag that\n"
-      "  make the RMSE least; zero-phase looks at the whole record. Tuning named for the largest lag. Angle "
-      "error: rms over\n"
-      "  windows, at the largest lag. Guards and turns: at the lag of the configuration, " +
+      "  make the RMSE least; zero-phase looks at the whole record. Tuning, and what follows the RMSE, for "
+      "the largest lag:\n"
+      "  RMSE of the error less its mean; angle error, rms over windows; error in parts of the claimed "
+      "deviation, with and\n"
+      "  without the mean (1 is right, more is too bold). Guards and turns: at the lag of the "
+      "configuration, " +
       std::to_string(evaluation.options.settings.engine.lag_samples) +
       " samples; in brackets: not applicable.\n";
   return text;

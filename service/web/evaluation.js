@@ -94,10 +94,10 @@
     table(made, `RMSE in deg/s by lag, ${rowName(row)}`, ["estimator", "tuned to, at the largest lag", ...lags.map((l) => `lag ${l}`), "its own lag"],
       row.estimators.map((e) => ({ strong: e.kind === "method", cells: [nameCell(e), last(e).tuning || "–", ...e.lags.map((l) => l.rmse_dps), e.kind === "bound" ? "–" : String(last(e).lag_samples)] })), [0, 1]);
     table(made, `More of the errors, at the largest lag, ${rowName(row)}`,
-      ["estimator", "bias, deg/s", "angle in 10 s, deg", "spread", "angle in 60 s, deg", "spread", "scale factor", "correlation peak, samples", "normalised error"],
+      ["estimator", "bias, deg/s", "RMSE less bias, deg/s", "angle in 10 s, deg", "spread", "angle in 60 s, deg", "spread", "scale factor", "correlation peak, samples", "normalised error", "less bias"],
       row.estimators.map((e) => {
         const l = last(e);
-        return { strong: e.kind === "method", cells: [nameCell(e), withError(l.bias_dps, l.bias_standard_error_dps), l.angle_10s_rms_deg, l.angle_10s_std_deg, l.angle_60s_rms_deg, l.angle_60s_std_deg, withError(l.scale_factor, l.scale_factor_standard_error), l.peak_lag_samples, l.normalised_error] };
+        return { strong: e.kind === "method", cells: [nameCell(e), withError(l.bias_dps, l.bias_standard_error_dps), l.rmse_without_bias_dps, l.angle_10s_rms_deg, l.angle_10s_std_deg, l.angle_60s_rms_deg, l.angle_60s_std_deg, withError(l.scale_factor, l.scale_factor_standard_error), l.peak_lag_samples, l.normalised_error, l.normalised_error_without_bias] };
       }));
     const { samples, lost_truth_samples: lost } = last(row.estimators[0]);
     made.append(element("p", `${samples.toLocaleString("en")} samples judged${lost > 0 ? `, ${lost.toLocaleString("en")} have no truth` : ""}. Noise ${number(row.noise_std_dps)} deg/s, motion ${number(row.truth_std_dps)} deg/s (standard deviations).`, "note"));

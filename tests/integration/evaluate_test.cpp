@@ -22,6 +22,7 @@ namespace {
 using app::ExitCode;
 using nlohmann::json;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -87,6 +88,9 @@ TEST_F(Evaluate, FindsTheErrorThatIsThere) {
   EXPECT_NEAR(raw["bias_dps"], 0.05, 3.0 * 0.2 / std::sqrt(4000.0));
   EXPECT_NEAR(raw["scale_factor"], 1.0, 0.005);
   EXPECT_EQ(raw["samples"], 4000);  // from 20 s on
+  EXPECT_NEAR(raw["rmse_without_bias_dps"], 0.2, 0.007);
+  EXPECT_EQ(raw["normalised_error_without_bias"], nullptr);
+  EXPECT_NEAR(estimator(all, "joint")["lags"][1]["normalised_error_without_bias"], 1.0, 0.5);
   EXPECT_NEAR(raw["angle_10s_rms_deg"], 0.5,
               0.1);  // bias times 10 s; noise adds up to 0.2 sqrt(1000)/100 = 0.06
   EXPECT_NEAR(estimator(all, "bias removed")["lags"][0]["rmse_dps"], 0.2, 0.007);
@@ -157,8 +161,10 @@ TEST_F(Evaluate, PrintsTheTable) {
   write_file("in.csv", Recording{}.text());
   const Result result = evaluate("in.csv", {"--no-turns"});
   EXPECT_EQ(result.exit_code, ExitCode::kDone);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("RMSE, deg/s, by lag"), HasSubstr("Butterworth *"),
-                                HasSubstr("swing-gain"), HasSubstr("tuned on the truth")));
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("RMSE, deg/s, by lag"), HasSubstr("less bias"), HasSubstr("normalised\n"),
+                    ContainsRegex("\n  joint .* [0-9.]+ / [0-9.]+\n"), HasSubstr("Butterworth *"),
+                    HasSubstr("swing-gain"), HasSubstr("tuned on the truth")));
 }
 
 TEST_F(Evaluate, AddsTheNoiseOfAStillRecordingAtEachScale) {

@@ -39,6 +39,19 @@ void count_samples(std::span<const double> truth, std::span<const double> estima
   }
 }
 
+/// Less the mean of what is finite.
+std::vector<double> without_finite_mean(std::vector<double> x) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double value : x) {
+    if (!std::isfinite(value)) continue;
+    sum += value;
+    count += 1.0;
+  }
+  for (double& value : x) value -= sum / count;
+  return x;
+}
+
 std::optional<double> normalised(std::span<const double> error, std::span<const double> claimed) {
   std::vector<double> ratio(error.size());
   for (std::size_t t = 0; t < ratio.size(); ++t) ratio[t] = error[t] / claimed[t];
@@ -84,8 +97,13 @@ ErrorFigures error_figures(std::span<const double> truth, const Contender& conte
   const std::size_t batch = samples_in(options.batch_s, options.rate_hz);
   figures.rmse = finite_rms(error);
   figures.bias = batch_mean(error, batch);
-  if (contender.std)
-    figures.normalised_error = normalised(error, std::span(*contender.std).subspan(begin, length));
+  const std::vector<double> unbiased = without_finite_mean(error);
+  figures.rmse_without_bias = finite_rms(unbiased);
+  if (contender.std) {
+    const auto claimed = std::span(*contender.std).subspan(begin, length);
+    figures.normalised_error = normalised(error, claimed);
+    figures.normalised_error_without_bias = normalised(unbiased, claimed);
+  }
   figures.angle_10s = angle_error(error, options.rate_hz, 10.0);
   figures.angle_60s = angle_error(error, options.rate_hz, 60.0);
   figures.scale_factor = batch_slope(right, estimate, batch);

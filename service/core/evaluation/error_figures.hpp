@@ -26,10 +26,13 @@ struct ErrorFigures {
   std::size_t lost_truth = 0;     ///< in the range, truth NaN
   std::size_t lost_estimate = 0;  ///< in the range, truth known, no estimate
   double rmse = 0.0;              ///< sqrt(mean e^2), e = estimate - truth
-  std::optional<Measured> bias;   ///< mean e; nothing for records shorter than two batches
+  double rmse_without_bias =
+      0.0;  ///< sqrt(mean (e - mean e)^2): for a truth that knows nothing of the sensor's bias
+  std::optional<Measured> bias;  ///< mean e; nothing for records shorter than two batches
   std::optional<double>
       normalised_error;  ///< sqrt(mean (e / claimed std)^2): 1 where the claim is right, above: too bold
-  std::optional<AngleError> angle_10s;  ///< nothing: not one whole window
+  std::optional<double> normalised_error_without_bias;  ///< the same of e - mean e
+  std::optional<AngleError> angle_10s;                  ///< nothing: not one whole window
   std::optional<AngleError> angle_60s;
   std::optional<Measured>
       scale_factor;  ///< slope of the estimate on the truth, sample by sample; below 1 for what shrinks

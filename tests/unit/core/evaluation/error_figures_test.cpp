@@ -26,6 +26,7 @@ TEST(ErrorFigures, OfAConstantOffsetAreItsClosedForm) {
   const auto figures = error_figures(truth, contender_of(estimate), {.rate_hz = 100.0, .range = {0, 12'000}});
   EXPECT_EQ(figures.samples, 12'000U);
   EXPECT_NEAR(figures.rmse, 0.05, 1e-12);
+  EXPECT_NEAR(figures.rmse_without_bias, 0.0, 1e-12);
   EXPECT_NEAR(figures.bias->value, 0.05, 1e-12);
   EXPECT_NEAR(figures.scale_factor->value, 1.0, 1e-12);
   EXPECT_EQ(figures.angle_10s->windows, 12U);
@@ -64,6 +65,23 @@ TEST(ErrorFigures, AClaimTwiceTooBoldHasANormalisedErrorOfTwo) {
   contender.std.emplace(50'000, 0.1);
   const auto figures = error_figures(truth, contender, {.rate_hz = 100.0, .range = {0, 50'000}});
   EXPECT_NEAR(*figures.normalised_error, 2.0, 0.03);  // 1/sqrt(2 N) = 0.3 %
+}
+
+// A bias that the truth does not know: sqrt(0.2^2 + 0.3^2), and without it 0.2, of which 0.1 are claimed. What is lost plays no part.
+TEST(ErrorFigures, WithoutBiasAreThoseOfTheNoise) {
+  std::vector<double> truth(50'000, 0.0);
+  Contender contender = contender_of(test::white_noise(50'000, 0.2, 4));
+  for (double& value : contender.estimate) value += 0.3;
+  contender.std.emplace(50'000, 0.1);
+  for (std::size_t t = 100; t < 20'000; ++t) {
+    truth[t] = kNaN;
+    contender.estimate[t] = 1000.0;
+  }
+  const auto figures = error_figures(truth, contender, {.rate_hz = 100.0, .range = {0, 50'000}});
+  EXPECT_NEAR(figures.rmse, std::hypot(0.2, 0.3), 0.003);
+  EXPECT_NEAR(figures.rmse_without_bias, 0.2, 0.003);
+  EXPECT_NEAR(*figures.normalised_error, std::hypot(2.0, 3.0), 0.03);
+  EXPECT_NEAR(*figures.normalised_error_without_bias, 2.0, 0.03);
 }
 
 TEST(ErrorFigures, SeesWhatShrinksAndWhatIsLate) {
