@@ -204,11 +204,10 @@ void JointFit::design(JointModel& model) noexcept {
   const bool band = max_signal_cycles_ < 0.5;
   const double left_out_variance = unit_ * left_out();
   model.beyond_band_variance = band ? left_out_variance : 0.0;
-  model.residual_variance =
-      band ? std::numeric_limits<double>::infinity() : model.noise_variance + left_out_variance;
-  const BlockSet pruned = blocks_of(pruned_, 1.0);
+  model.residual_variance = model.noise_variance + left_out_variance;
+  if (band) model.residual_variance = std::numeric_limits<double>::infinity();
   make(blocks_of(full_, 1.0), MemberKind::kFull, model);
-  make(pruned, MemberKind::kPruned, model);
+  make(blocks_of(pruned_, 1.0), MemberKind::kPruned, model);
   const double drive =
       scale_.agile_drive(options_.agile_drive) * model.member(MemberKind::kFull).innovation_variance / unit_;
   const double rho = options_.level_pole;
