@@ -88,7 +88,7 @@ settings::NoiseStates NoiseStateFile::merged(const settings::NoiseStates& states
       const auto here = states.find(sensor);
       const bool changed_here =
           here != states.end() && (known == known_.end() || here->second != known->second);
-      if (!changed_here) all[sensor] = std::move(there);
+      if (!changed_here) all[sensor] = there;
     }
   } catch (const settings::NoiseFileError&) {
     return states;

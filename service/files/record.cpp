@@ -219,20 +219,20 @@ class Loader {
 
 }  // namespace
 
-Record load_record(const std::string& path, const RecordOptions& given) {
-  RecordOptions options = given;
-  options.reader.nominal_rate_hz = given.sample_rate_hz.value_or(
-      given.assumed_rate_hz.value_or(given.reader.nominal_rate_hz));  // of stamps that are made up
-  RecordingReader reader(path, options.reader);
+Record load_record(const std::string& path, const RecordOptions& options) {
+  RecordOptions used = options;
+  used.reader.nominal_rate_hz = options.sample_rate_hz.value_or(
+      options.assumed_rate_hz.value_or(options.reader.nominal_rate_hz));  // of stamps that are made up
+  RecordingReader reader(path, used.reader);
   const std::string name = path == "-" ? "standard input" : path;
-  const bool assumed = reader.stamps_made_up() && !given.sample_rate_hz && given.assumed_rate_hz;
-  if (assumed) options.sample_rate_hz = given.assumed_rate_hz;
-  if (reader.stamps_made_up() && !options.sample_rate_hz) {
+  const bool assumed = reader.stamps_made_up() && !options.sample_rate_hz && options.assumed_rate_hz;
+  if (assumed) used.sample_rate_hz = options.assumed_rate_hz;
+  if (reader.stamps_made_up() && !used.sample_rate_hz) {
     throw FileError(name +
                     ": has no time column, and no sample rate is given; expected a column such as "
                     "timestamp_s or stamp_ns, or the rate in Hz (--rate)");
   }
-  Loader loader(reader, options);
+  Loader loader(reader, used);
   loader.read_all();
   Record record = loader.record(name);
   record.rate_assumed = assumed;

@@ -20,7 +20,6 @@ namespace {
 using app::ExitCode;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using Json = nlohmann::json;
 
 class CalibrateCommand : public Rig {
