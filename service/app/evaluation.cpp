@@ -196,11 +196,15 @@ class RowJudge {
     core::TurnOptions turn;
     turn.rate_hz = rate_hz_;
     turn.repeats = options_.turn_repeats;
+    std::vector<core::TurnTrials> trials;
+    for (const core::Method& one : chosen) {
+      if (!steps_.next()) return;
+      trials.emplace_back(one, row_.noise_dps, turn);
+    }
     for (const core::TurnProfile& profile : core::kTurnProfiles) {
-      for (const core::Method& one : chosen) {
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (!steps_.next()) return;
-        judged_.turns.push_back(
-            {one.name, std::string(profile.name), core::turn_response(one, profile, row_.noise_dps, turn)});
+        judged_.turns.push_back({chosen[i].name, std::string(profile.name), trials[i].take(profile)});
       }
     }
   }
@@ -236,7 +240,7 @@ class RowJudge {
 };
 
 std::size_t steps_a_row(const EvaluationOptions& options) {
-  const std::size_t close = 2 + (options.turns ? core::kTurnProfiles.size() : 0);
+  const std::size_t close = 2 + (options.turns ? 1 + core::kTurnProfiles.size() : 0);
   return options.methods.size() * options.lag_samples.size() + families().size() +
          (1 + options.methods.size()) * close;
 }

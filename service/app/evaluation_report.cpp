@@ -94,6 +94,7 @@ Json turns_json(const JudgedRow& row) {
     all.push_back(Json{{"name", turn.name},
                        {"turn", turn.profile},
                        {"half_delay_s", number(response.half_delay_s)},
+                       {"half_delay_error_s", number(response.half_delay_error_s)},
                        {"time_95_s", number(response.time_95_s)},
                        {"overshoot", response.overshoot},
                        {"peak_error_dps", response.peak_error_dps},

@@ -147,7 +147,7 @@
     for (const turn of [...new Set(row.turns.map((t) => t.turn))]) {
       const runs = row.turns.filter((t) => t.turn === turn);
       const step = 1 / evaluation.record.sample_rate_hz;
-      single(made, `${turn}, ${rowName(row)}`, "Mean over the runs.", {
+      single(made, `${turn}, ${rowName(row)}`, "What the turn changes in the answer, mean over the runs.", {
         height: 240,
         x: { label: "time since the turn's start, s" },
         y: { label: "rate, deg/s" },
@@ -155,8 +155,8 @@
         data: [runs[0].trace_dps.map((_, i) => runs[0].trace_start_s + i * step), runs[0].trace_truth_dps, ...runs.map((t) => t.trace_dps)],
       });
     }
-    table(made, `Turns in numbers, ${rowName(row)}`, ["turn", "estimator", "half, ms later than the truth", "95 %, ms after the start", "overshoot, %", "peak error, deg/s"],
-      row.turns.map((t) => ({ strong: t.name !== "Butterworth", cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), [0, 1]);
+    table(made, `Turns in numbers, ${rowName(row)}`, ["turn", "estimator", "half, ms later than the truth", "its standard error, ms", "95 %, ms after the start", "overshoot, %", "peak error, deg/s"],
+      row.turns.map((t) => ({ strong: t.name !== "Butterworth", cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.half_delay_error_s === null ? "" : 1e3 * t.half_delay_error_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), [0, 1]);
   }
 
   function fillPanel(panel, row) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
+
+#include "core/evaluation/statistics.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -24,16 +27,6 @@ std::optional<double> crossing(std::span<const double> x, std::size_t from, doub
   return std::nullopt;
 }
 
-/// The stretch of the noise for one of the repeats, from its start, wrapped round at its end.
-std::vector<double> noisy_turn(std::span<const double> truth, std::span<const double> noise,
-                               std::size_t repeat, std::size_t repeats) {
-  std::vector<double> noisy(truth.begin(), truth.end());
-  if (noise.empty()) return noisy;
-  const std::size_t start = repeat * noise.size() / repeats;
-  for (std::size_t t = 0; t < noisy.size(); ++t) noisy[t] += noise[(start + t) % noise.size()];
-  return noisy;
-}
-
 double peak_error(std::span<const double> estimate, std::span<const double> truth,
                   SampleRange range) noexcept {
   double peak = 0.0;
@@ -44,13 +37,35 @@ double peak_error(std::span<const double> estimate, std::span<const double> trut
   return peak;
 }
 
-void measure(std::span<const double> mean, std::span<const double> truth, const TurnProfile& profile,
+/// What the turn changes in each of the runs, and in their mean.
+struct Responses {
+  std::vector<std::vector<double>> runs;
+  std::vector<double> mean;
+};
+
+/// Standard error of the mean's time, in samples, at which it crosses a level: that of its height there, over its slope.
+std::optional<double> crossing_error(const Responses& responses, double crossing) {
+  const auto t = static_cast<std::size_t>(std::ceil(crossing));
+  if (t < 1) return std::nullopt;
+  std::vector<double> heights;
+  for (const auto& run : responses.runs) heights.push_back(run[t]);
+  const auto height = batch_mean(heights, 1);
+  if (!height) return std::nullopt;
+  return height->standard_error / (responses.mean[t] - responses.mean[t - 1]);
+}
+
+void measure(const Responses& responses, std::span<const double> truth, const TurnProfile& profile,
              const TurnOptions& options, TurnResponse& response) {
+  const std::span<const double> mean = responses.mean;
   const std::size_t start = samples_in(options.straight_s, options);
   const std::size_t look = start - std::min(start, samples_in(kBefore_s, options));
   const auto half = crossing(mean, look, 0.5 * profile.rate_dps);
   const auto true_half = crossing(truth, look, 0.5 * profile.rate_dps);
-  if (half && true_half) response.half_delay_s = (*half - *true_half) / options.rate_hz;
+  if (half && true_half) {
+    response.half_delay_s = (*half - *true_half) / options.rate_hz;
+    const auto error = crossing_error(responses, *half);
+    if (error) response.half_delay_error_s = *error / options.rate_hz;
+  }
   const auto most = crossing(mean, look, 0.95 * profile.rate_dps);
   if (most) response.time_95_s = (*most - static_cast<double>(start)) / options.rate_hz;
   for (std::size_t t = start; t < mean.size(); ++t) {
@@ -69,7 +84,7 @@ void measure(std::span<const double> mean, std::span<const double> truth, const 
 
 std::vector<double> turn_truth(const TurnProfile& profile, const TurnOptions& options) {
   const std::size_t start = samples_in(options.straight_s, options);
-  std::vector<double> truth(start + samples_in(profile.rise_s + options.hold_s, options), 0.0);
+  std::vector<double> truth(start + samples_in(options.after_s, options), 0.0);
   for (std::size_t t = start; t < truth.size(); ++t) {
     const double since_s = static_cast<double>(t - start) / options.rate_hz;
     truth[t] =
@@ -78,22 +93,45 @@ std::vector<double> turn_truth(const TurnProfile& profile, const TurnOptions& op
   return truth;
 }
 
-TurnResponse turn_response(const Method& method, const TurnProfile& profile,
-                           std::span<const double> noise_dps, const TurnOptions& options) {
+TurnTrials::TurnTrials(const Method& method, std::span<const double> noise_dps, const TurnOptions& options)
+    : method_(method), noise_dps_(noise_dps.begin(), noise_dps.end()), options_(options) {
   assert(options.repeats >= 1);
-  const std::vector<double> truth = turn_truth(profile, options);
-  const std::size_t start = samples_in(options.straight_s, options);
-  const SampleRange judged{start - std::min(start, samples_in(0.5, options)),
-                           start + samples_in(profile.rise_s + 2.0, options)};
-  const auto repeats = static_cast<double>(options.repeats);
-  std::vector<double> mean(truth.size(), 0.0);
-  TurnResponse response;
   for (std::size_t repeat = 0; repeat < options.repeats; ++repeat) {
-    const Contender run = method.run(noisy_turn(truth, noise_dps, repeat, options.repeats));
-    for (std::size_t t = 0; t < mean.size(); ++t) mean[t] += run.estimate[t] / repeats;
-    response.peak_error_dps += peak_error(run.estimate, truth, judged) / repeats;
+    straights_.push_back(method_.run(noise(repeat)).estimate);
   }
-  measure(mean, truth, profile, options, response);
+}
+
+/// The stretch of the noise for one of the repeats, from its start, wrapped round at its end.
+std::vector<double> TurnTrials::noise(std::size_t repeat) const {
+  std::vector<double> stretch(samples_in(options_.straight_s, options_) +
+                              samples_in(options_.after_s, options_));
+  const std::size_t start = repeat * noise_dps_.size() / options_.repeats;
+  for (std::size_t t = 0; t < stretch.size() && !noise_dps_.empty(); ++t) {
+    stretch[t] = noise_dps_[(start + t) % noise_dps_.size()];
+  }
+  return stretch;
+}
+
+TurnResponse TurnTrials::take(const TurnProfile& profile) const {
+  const std::vector<double> truth = turn_truth(profile, options_);
+  const std::size_t start = samples_in(options_.straight_s, options_);
+  const SampleRange judged{start - std::min(start, samples_in(0.5, options_)),
+                           start + samples_in(profile.rise_s + 2.0, options_)};
+  const auto repeats = static_cast<double>(options_.repeats);
+  Responses responses{{}, std::vector<double>(truth.size(), 0.0)};
+  TurnResponse response;
+  for (std::size_t repeat = 0; repeat < options_.repeats; ++repeat) {
+    std::vector<double> noisy = noise(repeat);
+    for (std::size_t t = 0; t < noisy.size(); ++t) noisy[t] += truth[t];
+    std::vector<double> change = method_.run(noisy).estimate;
+    response.peak_error_dps += peak_error(change, truth, judged) / repeats;
+    for (std::size_t t = 0; t < change.size(); ++t) {
+      change[t] -= straights_[repeat][t];
+      responses.mean[t] += change[t] / repeats;
+    }
+    responses.runs.push_back(std::move(change));
+  }
+  measure(responses, truth, profile, options_, response);
   return response;
 }
 

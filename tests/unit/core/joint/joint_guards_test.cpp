@@ -199,11 +199,11 @@ TEST(JointGuards, TakesATurnNoLaterThanTheButterworthTunedForTheDrive) {
   const Signal noise = testing::times(testing::white_noise(20'000, 6), kNoise);
   core::TurnOptions options;
   options.straight_s = 20.0;  // two windows
-  options.hold_s = 3.0;
+  options.after_s = 3.3;
   options.repeats = 6;
   const core::TurnProfile& turn = core::kTurnProfiles[0];
-  const core::TurnResponse ours = core::turn_response(joint, turn, noise, options);
-  const core::TurnResponse theirs = core::turn_response(core::method_of(tuned), turn, noise, options);
+  const core::TurnResponse ours = core::TurnTrials(joint, noise, options).take(turn);
+  const core::TurnResponse theirs = core::TurnTrials(core::method_of(tuned), noise, options).take(turn);
   ASSERT_TRUE(ours.half_delay_s && ours.time_95_s && theirs.half_delay_s && theirs.time_95_s);
   EXPECT_LE(*ours.half_delay_s, *theirs.half_delay_s + 0.005);
   EXPECT_LE(*ours.time_95_s, *theirs.time_95_s);
