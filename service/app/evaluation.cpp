@@ -15,6 +15,8 @@ namespace {
 
 using core::Rival;
 
+constexpr const char* kTunedName = "Butterworth";
+
 /// Rivals of which the best stands in one line.
 struct Family {
   const char* name;
@@ -26,7 +28,7 @@ const std::vector<Family>& families() {
   static const std::vector<Family> all = {
       {"raw", EstimatorKind::kUntouched, {Rival::kRaw}},
       {"bias removed", EstimatorKind::kUntouched, {Rival::kBiasRemoved}},
-      {"Butterworth",
+      {kTunedName,
        EstimatorKind::kFilter,
        {Rival::kButterworth1, Rival::kButterworth2, Rival::kButterworth4}},
       {"exponential average", EstimatorKind::kFilter, {Rival::kExponential}},
@@ -115,6 +117,17 @@ class Steps {
   bool stopped_ = false;
 };
 
+/// The lags that the methods answer with, rising.
+std::vector<std::size_t> own_lags(const EvaluationOptions& options) {
+  std::vector<std::size_t> lags;
+  for (const std::string& name : options.methods) {
+    lags.push_back(answers_at_once(name) ? 0 : options.settings.engine.lag_samples);
+  }
+  std::ranges::sort(lags);
+  lags.erase(std::unique(lags.begin(), lags.end()), lags.end());
+  return lags;
+}
+
 class RowJudge {
  public:
   RowJudge(const EvaluationRow& row, double rate_hz, const EvaluationOptions& options, Steps& steps)
@@ -131,7 +144,7 @@ class RowJudge {
     for (const Family& family : families()) judge_family(family);
     std::vector<core::Method> chosen;
     for (const std::string& name : options_.methods) chosen.push_back(method(name, own_lag()));
-    chosen.push_back(butterworth());
+    for (const std::size_t lag : own_lags(options_)) chosen.push_back(butterworth(lag));
     for (const core::Method& one : chosen) closer_look(one);
     if (options_.turns) take_turns(chosen);
     return std::move(judged_);
@@ -176,10 +189,11 @@ class RowJudge {
     judged_.estimators.push_back(std::move(estimator));
   }
 
-  [[nodiscard]] core::Method butterworth() const {
-    const auto best = tuned(families()[kButterworth], tuning_case(), {own_lag()});
+  /// The best that is allowed this lag.
+  [[nodiscard]] core::Method butterworth(std::size_t lag) const {
+    const auto best = tuned(families()[kButterworth], tuning_case(), {lag});
     core::Method tuned_one = core::method_of(best[0]);
-    tuned_one.name = "Butterworth";
+    tuned_one.name = lag == own_lag() ? kTunedName : std::string(kTunedName) + ", lag " + std::to_string(lag);
     return tuned_one;
   }
 
@@ -242,7 +256,7 @@ class RowJudge {
 std::size_t steps_a_row(const EvaluationOptions& options) {
   const std::size_t close = 2 + (options.turns ? 1 + core::kTurnProfiles.size() : 0);
   return options.methods.size() * options.lag_samples.size() + families().size() +
-         (1 + options.methods.size()) * close;
+         (own_lags(options).size() + options.methods.size()) * close;
 }
 
 }  // namespace

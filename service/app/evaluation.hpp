@@ -74,7 +74,8 @@ struct JudgedRow {
   double truth_std_dps = 0.0;
   bool noise_is_known = false;  ///< to methods that take a model of it
   std::vector<JudgedEstimator> estimators;
-  // With the lag of the configuration: all methods, and the best causal Butterworth.
+  // All methods with the lag of the configuration, and for each lag that they answer with the best causal Butterworth: "Butterworth" for
+  // the configuration's, "Butterworth, lag 0".
   std::vector<JudgedGuards> guards;
   std::vector<JudgedTurn> turns;
   std::vector<double> bin_centres_dps;

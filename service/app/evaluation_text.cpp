@@ -122,33 +122,41 @@ std::string guard_cell(const core::Guard& guard) {
   return fixed(guard.value, 3) + (guard.verdict == core::Verdict::kPass ? " ok" : " FAIL");
 }
 
+/// With the mark of what is tuned on the truth.
+std::string starred(const std::string& name) { return name + (name.starts_with("Butterworth") ? " *" : ""); }
+
+/// Columns of a table of guards are as wide as their heads, and at least so wide.
+constexpr int kGuardWidth = 16;
+
+int guard_width(const JudgedGuards& judged) {
+  return std::max(kGuardWidth, static_cast<int>(starred(judged.name).size()) + 2);
+}
+
 std::string guards_table(const JudgedRow& row) {
-  constexpr int kCellWidth = 16;
   std::string text = "\n  " + left("guards", kNameWidth);
-  for (const JudgedGuards& judged : row.guards)
-    text += right(judged.name + (judged.name == "Butterworth" ? " *" : ""), kCellWidth);
-  text += right("limit", kCellWidth) + "\n";
+  for (const JudgedGuards& judged : row.guards) text += right(starred(judged.name), guard_width(judged));
+  text += right("limit", kGuardWidth) + "\n";
   for (std::size_t i = 0; i < row.guards.front().guards.size(); ++i) {
     const core::Guard& first = row.guards.front().guards[i];
     text += "  " + left(std::string(core::name_of(first.kind)), kNameWidth);
-    for (const JudgedGuards& judged : row.guards) text += right(guard_cell(judged.guards[i]), kCellWidth);
+    for (const JudgedGuards& judged : row.guards)
+      text += right(guard_cell(judged.guards[i]), guard_width(judged));
     const bool gain =
         first.kind == core::GuardKind::kSlowTurnGain || first.kind == core::GuardKind::kSwingGain ||
         first.kind == core::GuardKind::kScaleFactor || first.kind == core::GuardKind::kVibrationGain;
     text +=
-        right((gain ? "1 +- " : "") + short_number(row.guards.front().guards[i].limit), kCellWidth) + "\n";
+        right((gain ? "1 +- " : "") + short_number(row.guards.front().guards[i].limit), kGuardWidth) + "\n";
   }
   return text;
 }
 
 std::string turns_table(const JudgedRow& row) {
   if (row.turns.empty()) return "";
-  std::string text = "\n  " + left("turn after 60 s straight", kNameWidth) + left("", 16) +
+  std::string text = "\n  " + left("turn after 60 s straight", kNameWidth) + left("", 22) +
                      right("50 %, ms") + right("95 %, ms") + right("over, %") +
                      right("peak error, deg/s", 20) + "\n";
   for (const JudgedTurn& turn : row.turns) {
-    text += "  " + left(turn.profile, kNameWidth) +
-            left(turn.name + (turn.name == "Butterworth" ? " *" : ""), 16) +
+    text += "  " + left(turn.profile, kNameWidth) + left(starred(turn.name), 22) +
             right(fixed(turn.response.half_delay_s, 0, 1e3)) + right(fixed(turn.response.time_95_s, 0, 1e3)) +
             right(fixed(100.0 * turn.response.overshoot, 1)) +
             right(fixed(turn.response.peak_error_dps, 2), 20) + "\n";
@@ -171,10 +179,10 @@ std::string evaluation_text(const Evaluation& evaluation) {
       "the largest lag:\n"
       "  RMSE of the error less its mean; angle error, rms over windows; error in parts of the claimed "
       "deviation, with and\n"
-      "  without the mean (1 is right, more is too bold). Guards and turns: at the lag of the "
+      "  without the mean (1 is right, more is too bold). Guards and turns: methods at the lag of the "
       "configuration, " +
       std::to_string(evaluation.options.settings.engine.lag_samples) +
-      " samples; in brackets: not applicable.\n";
+      " samples, realtime at 0, beside a Butterworth for each; in brackets: not applicable.\n";
   return text;
 }
 

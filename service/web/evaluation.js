@@ -6,8 +6,11 @@
   const { number, tick } = gyrodCharts;
   const evaluation = JSON.parse(document.getElementById("data").textContent);
   const byId = (id) => document.getElementById(id);
-  const kColours = { ...kSchemeColours, "bias removed": "--raw", Butterworth: "--noise", "Savitzky-Golay": "--mixed", "zero-phase Butterworth": "--signal" };
-  const colourOf = (name) => kColours[name] ?? "--accent";
+  const kColours = { ...kSchemeColours, joint: "--accent", realtime: "--realtime", improved: "--paper", "bias removed": "--raw", Butterworth: "--noise", "Savitzky-Golay": "--mixed", "zero-phase Butterworth": "--signal" };
+  const isTuned = (name) => name.startsWith("Butterworth");
+  const isTunedAside = (name) => isTuned(name) && name !== "Butterworth"; // for another lag than the configuration's
+  const colourOf = (name) => kColours[isTunedAside(name) ? "Butterworth" : name] ?? "--accent";
+  const lineOf = (name) => ({ label: name, colour: colourOf(name), width: 1.6, ...(isTunedAside(name) ? { dash: [2, 3] } : {}) });
   const kDrawn = new Set(["raw", "Butterworth", "Savitzky-Golay", "zero-phase Butterworth"]);
   const kStarred = new Set(["filter", "bound"]);
 
@@ -106,10 +109,10 @@
 
   function histogram(parent, row) {
     const { bin_centres_dps: centres, of } = row.histograms;
-    single(parent, `Errors, how often, ${rowName(row)}`, `At a lag of ${evaluation.own_lag_samples} samples. What lies outside counts in the first and last bin.`, {
+    single(parent, `Errors, how often, ${rowName(row)}`, `Methods at a lag of ${evaluation.own_lag_samples} samples, realtime at 0. What lies outside counts in the first and last bin.`, {
       x: { label: "error, deg/s" },
       y: { label: "share of the samples" },
-      series: of.map((h) => ({ label: h.name, colour: colourOf(h.name), width: 1.6 })),
+      series: of.map((h) => lineOf(h.name)),
       data: [centres, ...of.map((h) => h.shares)],
     });
   }
@@ -137,7 +140,7 @@
     const made = card(parent, "Guards");
     const names = [...new Set(row.guards.map((g) => g.name))];
     const find = (name, guard) => row.guards.find((g) => g.name === name && g.guard === guard);
-    table(made, `What an estimate must not do, lag ${evaluation.own_lag_samples}, ${rowName(row)}`, ["guard", ...names.map((n) => (n === "Butterworth" ? "Butterworth *" : n)), "limit"],
+    table(made, `What an estimate must not do, at a lag of ${evaluation.own_lag_samples} samples, realtime at 0, ${rowName(row)}`, ["guard", ...names.map((n) => (isTuned(n) ? `${n} *` : n)), "limit"],
       Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${tick(Number(find(names[0], guard).limit.toPrecision(3)))}`] })), [...Array(names.length + 2).keys()]);
   }
 
@@ -151,12 +154,12 @@
         height: 240,
         x: { label: "time since the turn's start, s" },
         y: { label: "rate, deg/s" },
-        series: [{ label: "truth", colour: "--truth", width: 1.2, dash: [5, 4] }, ...runs.map((t) => ({ label: t.name, colour: colourOf(t.name), width: 1.6 }))],
+        series: [{ label: "truth", colour: "--truth", width: 1.2, dash: [5, 4] }, ...runs.map((t) => lineOf(t.name))],
         data: [runs[0].trace_dps.map((_, i) => runs[0].trace_start_s + i * step), runs[0].trace_truth_dps, ...runs.map((t) => t.trace_dps)],
       });
     }
     table(made, `Turns in numbers, ${rowName(row)}`, ["turn", "estimator", "half, ms later than the truth", "its standard error, ms", "95 %, ms after the start", "overshoot, %", "peak error, deg/s"],
-      row.turns.map((t) => ({ strong: t.name !== "Butterworth", cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.half_delay_error_s === null ? "" : 1e3 * t.half_delay_error_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), [0, 1]);
+      row.turns.map((t) => ({ strong: !isTuned(t.name), cells: [t.turn, { text: t.name, colour: colourOf(t.name) }, t.half_delay_s === null ? "never" : 1e3 * t.half_delay_s, t.half_delay_error_s === null ? "" : 1e3 * t.half_delay_error_s, t.time_95_s === null ? "never" : 1e3 * t.time_95_s, 100 * t.overshoot, t.peak_error_dps] })), [0, 1]);
   }
 
   function fillPanel(panel, row) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@ using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
 
 /// One axis, 100 Hz: a slow swing, measured with white noise of 0.2 deg/s and a bias of 0.05 deg/s.
 struct Recording {
@@ -130,6 +132,10 @@ TEST_F(Evaluate, JudgesWhatTheDaemonPublishesAtItsOwnLagUnlessToldOtherwise) {
   EXPECT_EQ(realtime[2]["lag_bound_samples"], 16);
   EXPECT_EQ(realtime[2]["rmse_dps"], realtime[0]["rmse_dps"]);
   EXPECT_LT(estimator(all, "joint")["lags"][1]["rmse_dps"], realtime[0]["rmse_dps"]);
+  std::set<std::string> guarded;
+  for (const json& one : all["rows"][0]["guards"]) guarded.insert(one["name"]);
+  EXPECT_THAT(guarded,
+              UnorderedElementsAre("joint", "realtime", "improved", "Butterworth", "Butterworth, lag 0"));
 }
 
 // Where windows simply take turns, second differences at joints are 23 times those elsewhere here.
@@ -347,7 +353,7 @@ TEST_F(Evaluate, WhatIsSaidTwiceIsJudgedOnce) {
                                       "--noise", path("still.csv"), "--noise-scale", "1,2,1"});
   ASSERT_EQ(all["rows"].size(), 2U);
   EXPECT_EQ(all["rows"][1]["noise_scale"], 2.0);
-  EXPECT_EQ(all["rows"][0]["guards"].size(), 27U);  // two methods and the Butterworth
+  EXPECT_EQ(all["rows"][0]["guards"].size(), 36U);  // two methods and a Butterworth for the lag of each
 }
 
 // The limits of the configuration hold for what is read: 0.05 rad/s are 2.9 deg/s of the swing's 5.
