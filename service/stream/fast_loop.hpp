@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "stream/method.hpp"
+#include "stream/noise_learner.hpp"
 #include "stream/sample.hpp"
 #include "stream/sample_ring.hpp"
 
@@ -37,6 +38,13 @@ class FastLoop {
     std::array<Estimate, kAxes> realtime;  ///< for this position
     std::array<Estimate, kAxes> denoised;  ///< for the position `lag` before it
   };
+
+  /// What is known of the noise before a stretch's first sample.
+  void expect_noise(const ChannelNoise& noise) noexcept {
+    const bool known = noise.source != NoiseSource::kNone;
+    for (std::size_t axis = 0; axis < kAxes; ++axis)
+      filters_[axis]->expect_noise(known ? noise.axis[axis] : core::NoiseModel{});
+  }
 
   /// Takes a sample (or a bridged position).
   [[nodiscard]] Answer step(const std::array<double, kAxes>& rate_radps) noexcept {

@@ -29,6 +29,7 @@ DenoisedSample estimated(const FastLoop& loop, const Sample& sample,
 
 void Engine::Impl::step_fast_loop(Channel& channel, const Sample& newest, Place place) {
   FastLoop& loop = *channel.fast_loop;
+  if (channel.ring.end() - channel.schedule.segment_begin() == 1) loop.expect_noise(channel.noise);
   const FastLoop::Answer answer = loop.step(newest.rate_radps);
   channel.count_misfits(loop.take_new_misfits());
   std::uint32_t flags = state_flags(channel);

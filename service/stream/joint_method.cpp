@@ -49,6 +49,10 @@ class JointFilter final : public SampleFilter {
  public:
   JointFilter(const core::JointOptions& options, std::size_t lag_samples) : bank_(options, lag_samples) {}
 
+  void expect_noise(const core::NoiseModel& noise) noexcept override {
+    bank_.expect_noise(core::is_usable(noise) ? core::noise_variance(noise) : 0.0);
+  }
+
   void use(const Model& model) noexcept override {
     const core::JointModel& joint = static_cast<const JointState&>(model).joint;
     bank_.use(joint);

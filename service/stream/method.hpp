@@ -85,6 +85,9 @@ struct Estimates {
 class SampleFilter {
  public:
   virtual ~SampleFilter() = default;
+  /// What is known of the axis's own noise, (rad/s)^2, before a stretch's first sample, for the answers until the first model. Holds until it is
+  /// called again. @param noise usable, or nothing is known
+  virtual void expect_noise(const core::NoiseModel& noise) noexcept { static_cast<void>(noise); }
   /// Uses this model from the next sample on. Must copy what it needs: the slow loop writes into the same object
   /// again while the filter runs. The filter keeps the recent samples that it needs for the hand-over.
   virtual void use(const Model& model) noexcept = 0;

@@ -4,10 +4,12 @@
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
+// (first sample of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
 // that were moved by hand, their own rates the truth, no prototype to compare with); and core::JointOptions' members.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -53,6 +55,13 @@ core::NoiseModel believed(const test::DriveRow& row, const Arguments& arguments)
   return core::scaled(model, number(arguments, "level", core::kNoiseMargin));
 }
 
+/// The row without its first seconds.
+void begin_at(test::DriveRow& row, double begin_s) {
+  const auto samples = std::min(row.noisy_dps.size(), static_cast<std::size_t>(begin_s * row.rate_hz));
+  row.truth_dps.erase(row.truth_dps.begin(), row.truth_dps.begin() + static_cast<std::ptrdiff_t>(samples));
+  row.noisy_dps.erase(row.noisy_dps.begin(), row.noisy_dps.begin() + static_cast<std::ptrdiff_t>(samples));
+}
+
 void print(const char* what, const test::ByLag& values) {
   std::printf("%s", what);
   for (const double value : values) std::printf(" %5.3f", value);
@@ -78,6 +87,7 @@ int study(const Arguments& arguments) {
   for (auto& row : by_hand ? test::hand_rows(choice) : test::drive_rows(choice)) {
     if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
     const core::NoiseModel noise = believed(row, arguments);
+    begin_at(row, number(arguments, "begin", 0));
     if (!by_hand) test::resample(row, number(arguments, "rate", 120));
     const test::JointFigures figures = test::joint_figures(row, noise, setting);
     std::printf("%-12s ", row.name.c_str());

@@ -127,7 +127,10 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
   core::JointFit fit(setting.window, setting.options);
   fit.set_sample_rate(setting.told_rate ? row.rate_hz : 0.0);
   std::vector<core::KalmanBank> banks;
-  for (const std::size_t lag : kJointLags) banks.emplace_back(setting.options, lag);
+  for (const std::size_t lag : kJointLags) {
+    banks.emplace_back(setting.options, lag);
+    if (core::is_usable(noise)) banks.back().expect_noise(core::noise_variance(noise));
+  }
   const auto model = std::make_unique<core::JointModel>();
   core::WindowReport report;
   const auto [begin, end] = judged_part(row, setting);

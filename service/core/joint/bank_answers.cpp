@@ -12,6 +12,7 @@ namespace gyrod::core {
 
 /// Of x[t - lag], t the newest sample, without the slow correction.
 BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
+  if (!fitted_) return start_.estimate(lag);
   std::array<double, kMembers> estimates{};
   BankEstimate mixture;
   // Differences to it are weighed: where all agree, that is the answer to the last bit.
@@ -74,6 +75,7 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
 
 /// P_L of the members, as far as they agree.
 double KalmanBank::expected_variance(std::size_t lag) const noexcept {
+  if (!fitted_) return start_.expected_variance(std::min<std::size_t>(lag, count_ - 1));
   double sum = 0.0;
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (members_[i].weight > 0.0) sum += members_[i].weight * error_variance_[i][lag];

@@ -8,39 +8,12 @@
 namespace gyrod::core {
 namespace {
 
-/// Local levels before the first model: x[t] = x[t-1] + w, z = x + v with var w = ratio var v. Calm, ordinary, rough.
-constexpr std::array<double, 3> kStartRatios = {1e-4, 0.02, 1.0};
-
 /// Most that one sample says against a member, nu^2 / S: a million deviations.
 constexpr double kMostSurprise = 1e12;
 
 /// Whether one of the members can answer.
 bool has_member(const JointModel& model) noexcept {
   return std::ranges::any_of(model.members, &MemberModel::usable);
-}
-
-/// The steady state in closed form, in parts of var v: X = (ratio + sqrt(ratio^2 + 4 ratio)) / 2, K = X / (X + 1), g_k = K (1 - K)^k.
-MemberModel local_level(double ratio) noexcept {
-  MemberModel member;
-  FilterBlock level;
-  level.order = 1;
-  level.a[0] = 1.0;
-  level.drive = ratio;
-  level.signal = 1.0;
-  member.blocks.add(level);
-  member.states = 1;
-  const double X = 0.5 * (ratio + std::sqrt(ratio * ratio + 4.0 * ratio));
-  const double K = X / (X + 1.0);
-  member.gain[0] = K;
-  member.innovation_variance = X + 1.0;
-  member.prediction_variance = X;
-  double g = K;
-  for (double& value : member.smoothing) {
-    value = g;
-    g *= 1.0 - K;
-  }
-  member.usable = true;
-  return member;
 }
 
 }  // namespace
@@ -56,7 +29,7 @@ KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
 
 void KalmanBank::reset() noexcept {
   count_ = 0;
-  started_ = false;
+  start_.reset();
   fitted_ = false;
   unit_ = 0.0;
   members_ = {};
@@ -76,7 +49,6 @@ void KalmanBank::use(const JointModel& model) noexcept {
   model_ = model;
   scale();
   unit_ = 1.0;
-  started_ = true;
   if (!fitted_) {
     fitted_ = true;
     for (Member& member : members_) member.weight = 0.0;
@@ -104,10 +76,26 @@ void KalmanBank::use(const JointModel& model) noexcept {
 void KalmanBank::scale() noexcept { switching_rate_ = model_.scale.switching_rate(options_.switching_rate); }
 
 BankEstimates KalmanBank::step(double sample) noexcept {
-  if (!started_) start();
-  if (count_ == 0) model_.mean = fitted_ ? model_.mean : sample;
   history_[count_ % history_.size()] = sample;
-  if (!fitted_) learn_start_variance(sample);
+  if (!fitted_) {
+    follow_start(sample);
+  } else if (!follow(sample)) {
+    return start_anew(sample);
+  }
+  moving_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
+  BankEstimates answer;
+  answer.realtime = combine(0);
+  correct(sample, 0, realtime_correction_, answer.realtime);
+  if (!std::isfinite(answer.realtime.rate)) return start_anew(sample);
+  answer.denoised = answer.realtime;
+  if (count_ <= lag_) return answer;
+  answer.denoised = combine(lag_);
+  correct(sample_at(count_ - 1 - lag_), lag_, denoised_correction_, answer.denoised);
+  return std::isfinite(answer.denoised.rate) ? answer : start_anew(sample);
+}
+
+/// The members take the sample. @return false where none is left that can answer
+bool KalmanBank::follow(double sample) noexcept {
   double fit = 0.0;
   double weights = 0.0;
   bool lost = false;
@@ -128,21 +116,24 @@ BankEstimates KalmanBank::step(double sample) noexcept {
     weights += members_[i].weight;
   }
   ++count_;
-  if (!has_member(model_)) return start_anew(sample);
+  if (!has_member(model_)) return false;
   if (lost) settle_weights();
   weigh(surprise);
-  if (fitted_ && weights > 0.0)
-    normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
-  moving_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
-  BankEstimates answer;
-  answer.realtime = combine(0);
-  correct(sample, 0, realtime_correction_, answer.realtime);
-  if (!std::isfinite(answer.realtime.rate)) return start_anew(sample);
-  answer.denoised = answer.realtime;
-  if (count_ <= lag_) return answer;
-  answer.denoised = combine(lag_);
-  correct(sample_at(count_ - 1 - lag_), lag_, denoised_correction_, answer.denoised);
-  return std::isfinite(answer.denoised.rate) ? answer : start_anew(sample);
+  if (weights > 0.0) normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
+  return true;
+}
+
+/// Variances are in parts of the noise's.
+void KalmanBank::follow_start(double sample) noexcept {
+  if (count_ == 0) {
+    model_ = {};
+    model_.noise_variance = 1.0;
+    model_.residual_variance = 1.0;
+    scale();
+  }
+  start_.step(sample);
+  unit_ = start_.noise_variance();
+  ++count_;
 }
 
 /// No member is left within the finite numbers: the sample answers for itself.
@@ -150,31 +141,6 @@ BankEstimates KalmanBank::start_anew(double sample) noexcept {
   reset();
   const BankEstimate nothing_known{.rate = sample, .variance = std::numeric_limits<double>::max()};
   return {.realtime = nothing_known, .denoised = nothing_known};
-}
-
-/// The local levels; the other members stay out.
-void KalmanBank::start() noexcept {
-  model_ = {};
-  model_.noise_variance = 1.0;
-  model_.residual_variance = 1.0;
-  scale();
-  for (std::size_t i = 0; i < kStartRatios.size(); ++i) {
-    model_.members[i] = local_level(kStartRatios[i]);
-    for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
-      error_variance_[i][lag] = model_.members[i].error_variance(lag);
-    }
-  }
-  settle_weights();
-  started_ = true;
-}
-
-/// The level of the noise before anything is known of it: white noise of variance s^2 has second differences of variance 6 s^2.
-void KalmanBank::learn_start_variance(double sample) noexcept {
-  if (count_ < 2) return;
-  const double second = sample - 2.0 * sample_at(count_ - 1) + sample_at(count_ - 2);
-  if (!std::isfinite(second * second)) return;
-  const double share = 1.0 / static_cast<double>(std::min<std::uint64_t>(count_ - 1, 128));
-  unit_ += share * (second * second / 6.0 - unit_);
 }
 
 void KalmanBank::predict_and_update(std::size_t index, double sample, std::uint64_t time) noexcept {

@@ -13,6 +13,7 @@
 #include "core/joint/residual_check.hpp"
 #include "core/joint/slow_correction.hpp"
 #include "core/joint/slow_motion.hpp"
+#include "core/joint/start_levels.hpp"
 
 namespace gyrod::core {
 
@@ -31,7 +32,7 @@ struct BankEstimates {
 /// variance_factor. What is left of the step that the last new model made (a fifth less with every sample) is taken back, so that a new model
 /// begins where the last one was. What the noise cannot have been goes back (residual_check.hpp), and a slow correction (slow_correction.hpp)
 /// makes of that the answer; what it owes stays owed. With look-ahead, what the answer lacks in size is added (gain_correction.hpp).
-/// Before the first model, three local levels (random walks seen in white noise) answer.
+/// Before the first model, local levels answer (start_levels.hpp).
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
 /// Allocates nothing after construction; finite for finite input. Not thread-safe.
@@ -45,13 +46,16 @@ class KalmanBank {
   /// Takes over a model (copied) from the next sample on: its members run over the last hand_over_samples first, and inherit the
   /// weights. A model that is not usable is ignored.
   void use(const JointModel& model) noexcept;
+  /// Variance of the sensor's noise, unit^2, as known before there is a model; 0 (at first): it is guessed. Used until the first model, and
+  /// again after reset().
+  void expect_noise(double variance) noexcept { start_.expect_noise(variance); }
   /// Takes z[t].
   BankEstimates step(double sample) noexcept;
   /// x[t-age] given all up to z[t], 0 <= age <= lag.
   [[nodiscard]] BankEstimate held(std::size_t age) const noexcept;
   /// Mean of nu^2 / S over about the last kFitMemory samples: 1 where the model explains what comes in.
   [[nodiscard]] double normalised_innovation() const noexcept { return normalised_innovation_; }
-  /// Forgets everything.
+  /// Forgets everything but what is expected of the noise.
   void reset() noexcept;
 
   static constexpr double kFitMemory = 256.0;
@@ -81,9 +85,9 @@ class KalmanBank {
   [[nodiscard]] double expected_variance(std::size_t lag) const noexcept;
   [[nodiscard]] double widened(double variance) const noexcept;
   void scale() noexcept;
-  void start() noexcept;
+  [[nodiscard]] bool follow(double sample) noexcept;
+  void follow_start(double sample) noexcept;
   [[nodiscard]] BankEstimates start_anew(double sample) noexcept;
-  void learn_start_variance(double sample) noexcept;
   void predict_and_update(std::size_t index, double sample, std::uint64_t time) noexcept;
   void weigh(const std::array<double, kMembers>& surprise) noexcept;
   void settle_weights() noexcept;
@@ -96,8 +100,8 @@ class KalmanBank {
   JointOptions options_;
   std::size_t lag_;
   JointModel model_;
-  bool started_ = false;
   bool fitted_ = false;  ///< model_ came from a window
+  StartLevels start_;    ///< until then
   double switching_rate_ = 0.0;
   double unit_ = 1.0;        ///< variances of the model in use are in parts of this
   std::uint64_t count_ = 0;  ///< samples taken

@@ -6,6 +6,7 @@
 #include "core/noise/noise_model.hpp"
 #include "engine_support.hpp"
 #include "stream/engine.hpp"
+#include "stream/joint_method.hpp"
 #include "stream/paper_method.hpp"
 
 namespace gyrod::stream {
@@ -119,6 +120,24 @@ TEST(EngineNoise, LearnedGivesTheSameBitsForAnyWorkersAndAnyBatching) {
   for (const std::size_t workers : {0U, 3U}) {
     for (const std::size_t batch : {1U, 7U, 1500U})
       EXPECT_TRUE(same_bits(run(workers, batch), expected)) << workers << " workers, batches of " << batch;
+  }
+}
+
+// Before its first model, an answer is as uncertain as the noise that is known says: what was learned by the first sample of the stretch.
+TEST(JointMethod, ExpectsTheNoiseThatIsKnownFromTheFirstSampleOfAStretch) {
+  const double widening = std::sqrt(core::JointOptions{}.variance_factor);
+  RecordingSink sink;
+  EngineOptions options = with_learner(small_options(), 33);
+  options.noise = [](std::string_view) { return noise_of(NoiseSource::kCalibrated, 0.25); };
+  Engine engine(options, joint_method({}), sink);
+  engine.push("imu", noisy_samples(40));  // after 33 of them, the learner says 33 rad/s
+  engine.push("imu", counting_samples(8, 1000));
+  const auto realtime = sink.realtime("imu");
+  ASSERT_EQ(realtime.size(), 48U);
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const double times = widening * static_cast<double>(axis + 1);
+    EXPECT_NEAR(realtime[0].rate_std_radps[axis], 0.5 * times, 1e-6) << axis;
+    EXPECT_NEAR(realtime[40].rate_std_radps[axis], 33.0 * times, 1e-4) << axis;
   }
 }
 
