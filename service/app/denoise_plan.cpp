@@ -2,11 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/calibration_choice.hpp"
 #include "app/flags.hpp"
 #include "app/options.hpp"
 #include "core/denoise/record_analysis.hpp"
 #include "settings/load.hpp"
-#include "settings/noise_calibration.hpp"
 #include "stream/method.hpp"
 
 namespace gyrod::app {
@@ -48,13 +48,7 @@ void choose_noise(const DenoiseChoice& choice, DenoisePlan& plan) {
   if (choice.noise.empty()) return;
   if (choice.batch)
     throw CLI::ValidationError("--noise", "is for windows; --batch judges by the record itself");
-  const auto calibrations = settings::load_calibrations(choice.noise);
-  const bool only = calibrations.size() == 1 && calibrations.front().sensor_id;
-  if (only && choice.sensor.empty()) plan.offline.sensor = *calibrations.front().sensor_id;
-  if (settings::calibration_for(calibrations, plan.offline.sensor) == nullptr) {
-    throw CLI::ValidationError("--noise", choice.noise + " has no calibration for sensor '" +
-                                              plan.offline.sensor + "'; see --sensor");
-  }
+  plan.offline.sensor = choose_calibration("--noise", choice.noise, choice.sensor).sensor;
   plan.settings.noise.calibrations = choice.noise;
   plan.settings.noise.source = settings::NoiseSource::kCalibrated;
 }
