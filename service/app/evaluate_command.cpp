@@ -8,6 +8,7 @@
 
 #include "app/command.hpp"
 #include "app/evaluate_flags.hpp"
+#include "app/evaluated_methods.hpp"
 #include "app/evaluation.hpp"
 #include "app/evaluation_folder.hpp"
 #include "app/evaluation_report.hpp"
@@ -53,6 +54,19 @@ void check_truth_in(const EvaluationRows& rows, core::SampleRange range) {
   }
 }
 
+/// Who asks for a calibration is not to be judged by a guess.
+void check_noise_of(const EvaluationRows& rows, const EvaluationOptions& options) {
+  if (rows.noise_source != settings::NoiseSource::kCalibrated) return;
+  if (std::ranges::none_of(options.methods, takes_noise_model)) return;
+  for (const EvaluationRow& row : rows.rows) {
+    if (row.noise.by != NoiseKnownBy::kNothing) continue;
+    throw CLI::ValidationError(
+        "--calibration", "is needed for axis " + row.axis +
+                             ": noise.source is calibrated, noise.calibrations has none for the sensor (see "
+                             "--sensor), and no --noise has samples left that tell its noise");
+  }
+}
+
 EvaluationRows load(const EvaluateFlags& flags, EvaluationInput input, Interrupt& interrupt) {
   if (flags.input.recording == "-" || flags.input.noise == "-") interrupt.let_through();
   ProgressBar bar("reading");
@@ -65,13 +79,14 @@ EvaluationRows load(const EvaluateFlags& flags, EvaluationInput input, Interrupt
 
 int evaluate_or_stop(const EvaluateFlags& flags, Interrupt& interrupt) {
   EvaluationOptions options = options_of(flags);
-  const EvaluationInput input = input_of(flags, options.settings);
+  const EvaluationInput input = input_of(flags, options);
   std::optional<EvaluationFolder> folder;
   if (!flags.folder.empty()) folder.emplace(flags.folder);
 
   const EvaluationRows rows = load(flags, input, interrupt);
   options.range = range_of(flags, rows);
   check_truth_in(rows, options.range);
+  check_noise_of(rows, options);
   std::vector<JudgedRow> judged;
   {
     ProgressBar bar("evaluating");
@@ -121,6 +136,7 @@ void add_evaluate(CLI::App& parser, Action& chosen) {
       "  gyrod evaluate drive_with_reference.csv.gz -o evaluation\n"
       "  gyrod evaluate drive_with_reference.csv --noise still.csv --noise-scale 0.3,1,3 --rate 100 -o "
       "evaluation\n"
+      "  gyrod evaluate drive_with_reference.csv --noise still.csv --calibration cheap_gyro.json\n"
       "  gyrod evaluate good_gyro.csv --signal-is-truth --noise cheap_gyro_still.csv --axis z --lag 0,16,32");
   command->callback([&chosen, flags] {
     chosen = [flags](Interrupt& interrupt) { return evaluate_recording(*flags, interrupt); };

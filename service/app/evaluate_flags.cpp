@@ -56,6 +56,17 @@ void check_lags(const EvaluationOptions& options) {
   }
 }
 
+/// Nothing where no method asks for it.
+NoiseKnowledge knowledge_of(const EvaluateFlags& flags, const EvaluationOptions& options) {
+  const bool asked = std::ranges::any_of(options.methods, takes_noise_model);
+  if (!asked && !flags.calibration.empty())
+    throw CLI::ValidationError("--calibration", "is for joint and realtime; --methods has neither");
+  if (!flags.sensor.empty() && flags.calibration.empty() && flags.config.empty())
+    throw CLI::ValidationError("--sensor", "finds its calibration in --calibration or --config; give one");
+  if (!asked) return {options.settings.noise.source, "", std::nullopt};
+  return noise_knowledge(flags.calibration, flags.sensor, options.settings.noise);
+}
+
 void add_input(CLI::App& command, EvaluateFlags& flags) {
   command.add_option("input", flags.input.recording, "Recording: CSV, plain or gzip; - for standard input")
       ->type_name("IN.csv[.gz]")
@@ -123,6 +134,16 @@ void add_noise(CLI::App& command, EvaluateFlags& flags) {
   command.add_option("--noise-start", flags.input.noise_start, "First sample of the noise [0]")
       ->type_name("N")
       ->check(in_range(0, 1e12));
+  command
+      .add_option(
+          "--calibration", flags.calibration,
+          "Calibration of the noise that is added, or of the recording's sensor, by gyrod calibrate, for\n"
+          "joint and realtime [by noise.source: as configured, else the samples of --noise that are not\n"
+          "added, else learned at rest in the record]")
+      ->type_name("FILE.json");
+  command.add_option("--sensor", flags.sensor, "Whose noise it is: finds its calibration")
+      ->type_name("ID")
+      ->check(sensor_id());
 }
 
 void add_methods(CLI::App& command, EvaluateFlags& flags) {
@@ -143,7 +164,7 @@ void add_methods(CLI::App& command, EvaluateFlags& flags) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(in_range(0, 1e6));
-  command.add_option("--config", flags.config, "Configuration file: its groups denoise and limits")
+  command.add_option("--config", flags.config, "Configuration file: its groups denoise, limits and noise")
       ->type_name("FILE");
   command.add_flag("--no-turns", flags.no_turns, "Leave out the turns after 60 s straight, half of the work");
   command
@@ -166,10 +187,22 @@ void add_evaluate_options(CLI::App& command, EvaluateFlags& flags) {
       ->type_name("DIR");
 }
 
-EvaluationInput input_of(const EvaluateFlags& flags, const settings::Settings& settings) {
+EvaluationOptions options_of(const EvaluateFlags& flags) {
+  EvaluationOptions options;
+  options.settings = load_or_default(flags.config);
+  options.methods = flags.methods;
+  keep_each_once(options.methods);
+  options.lag_samples = lags_of(flags, options);
+  options.turns = !flags.no_turns;
+  options.turn_repeats = flags.turn_repeats;
+  check_lags(options);
+  return options;
+}
+
+EvaluationInput input_of(const EvaluateFlags& flags, const EvaluationOptions& options) {
   EvaluationInput input = flags.input;
-  input.max_rate_radps = settings.engine.max_rate_radps;
-  input.max_bridged_samples = settings.engine.max_bridged_samples;
+  input.max_rate_radps = options.settings.engine.max_rate_radps;
+  input.max_bridged_samples = options.settings.engine.max_bridged_samples;
   keep_each_once(input.axes);
   keep_each_once(input.noise_scales);
   if (!flags.truth_prefix.empty()) input.truth_prefix = flags.truth_prefix;
@@ -188,19 +221,8 @@ EvaluationInput input_of(const EvaluateFlags& flags, const settings::Settings& s
   if (input.signal_is_truth && about_truth)
     throw CLI::ValidationError("--signal-is-truth",
                                "excludes --truth-columns and --truth-axes: no other column is read");
+  input.known = knowledge_of(flags, options);
   return input;
-}
-
-EvaluationOptions options_of(const EvaluateFlags& flags) {
-  EvaluationOptions options;
-  options.settings = load_or_default(flags.config);
-  options.methods = flags.methods;
-  keep_each_once(options.methods);
-  options.lag_samples = lags_of(flags, options);
-  options.turns = !flags.no_turns;
-  options.turn_repeats = flags.turn_repeats;
-  check_lags(options);
-  return options;
 }
 
 }  // namespace gyrod::app

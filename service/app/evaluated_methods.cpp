@@ -41,8 +41,13 @@ core::Method two_speed_method(const std::string& name, const MethodContext& cont
   run.max_signal_hz = context.settings.denoise.max_signal_hz;
   run.lag_samples = context.lag_samples;
   run.realtime = answers_at_once(name);
-  if (context.noise) run.noise = *context.noise;
-  const auto estimate = [run](std::span<const double> noisy_dps) { return joint_contender(run, noisy_dps); };
+  run.noise = context.noise;
+  const auto estimate = [run, learns = context.learns_itself](std::span<const double> noisy_dps) {
+    if (!learns) return joint_contender(run, noisy_dps);
+    JointRun own = run;
+    own.noise = learned_at_rest({noisy_dps, {}, {}}, run.sample_rate_hz)[0];
+    return joint_contender(own, noisy_dps);
+  };
   return {name, run.realtime ? 0 : context.lag_samples, estimate};
 }
 

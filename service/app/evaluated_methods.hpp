@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/noise_course.hpp"
 #include "core/evaluation/contender.hpp"
-#include "core/noise/noise_model.hpp"
 #include "settings/settings.hpp"
 
 namespace gyrod::app {
@@ -17,7 +16,8 @@ struct MethodContext {
   const settings::Settings& settings;
   std::size_t lag_samples = 0;  ///< instead of that in the settings
   double rate_hz = 0.0;
-  std::optional<core::NoiseModel> noise;  ///< the sensor's, deg/s, for takes_noise_model(); nothing: unknown
+  NoiseCourse noise;           ///< the sensor's, deg/s, for takes_noise_model(); nothing: unknown
+  bool learns_itself = false;  ///< instead of that: what each run shows at rest, by the one axis that it has
 };
 
 /// What --methods takes: "direct", "emd", "acf-emd", "improved"; "joint", the two-speed estimator with a lag, and "realtime", its answers at

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "app/evaluated_methods.hpp"
@@ -134,7 +135,8 @@ class RowJudge {
       : row_(row), rate_hz_(rate_hz), options_(options), steps_(steps) {
     judged_.axis = row.axis;
     judged_.noise_scale = row.noise_scale;
-    judged_.noise_is_known = row.known_noise.has_value();
+    judged_.noise_known_by = row.noise.by;
+    judged_.noise_known_from_sample = row.noise.from_sample;
     judged_.noise_std_dps = known_std(row.noise_dps, options.range);
     judged_.truth_std_dps = known_std(row.truth_dps, options.range);
   }
@@ -146,14 +148,19 @@ class RowJudge {
     for (const std::string& name : options_.methods) chosen.push_back(method(name, own_lag()));
     for (const std::size_t lag : own_lags(options_)) chosen.push_back(butterworth(lag));
     for (const core::Method& one : chosen) closer_look(one);
-    if (options_.turns) take_turns(chosen);
+    if (options_.turns) take_turns(std::span(chosen).subspan(options_.methods.size()));
     return std::move(judged_);
   }
 
  private:
   [[nodiscard]] std::size_t own_lag() const noexcept { return options_.settings.engine.lag_samples; }
   [[nodiscard]] core::Method method(const std::string& name, std::size_t lag) const {
-    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.known_noise});
+    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.noise.course});
+  }
+  /// For runs that are no part of the record: where rest tells the noise, their own rest does.
+  [[nodiscard]] core::Method method_elsewhere(const std::string& name) const {
+    return evaluated_method(name,
+                            {options_.settings, own_lag(), rate_hz_, row_.noise.course, row_.noise.learns});
   }
   [[nodiscard]] core::TuningCase tuning_case() const {
     return {row_.noisy_dps, row_.truth_dps, options_.range};
@@ -206,7 +213,10 @@ class RowJudge {
     judged_.guards.push_back({one.name, core::guards(one, plain, on)});
   }
 
-  void take_turns(const std::vector<core::Method>& chosen) {
+  void take_turns(std::span<const core::Method> filters) {
+    std::vector<core::Method> chosen;
+    for (const std::string& name : options_.methods) chosen.push_back(method_elsewhere(name));
+    chosen.insert(chosen.end(), filters.begin(), filters.end());
     core::TurnOptions turn;
     turn.rate_hz = rate_hz_;
     turn.repeats = options_.turn_repeats;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,7 +73,9 @@ struct JudgedRow {
   double noise_scale = 1.0;
   double noise_std_dps = 0.0;
   double truth_std_dps = 0.0;
-  bool noise_is_known = false;  ///< to methods that take a model of it
+  // To methods that take a model of it.
+  NoiseKnownBy noise_known_by = NoiseKnownBy::kNothing;
+  std::optional<std::size_t> noise_known_from_sample;
   std::vector<JudgedEstimator> estimators;
   // All methods with the lag of the configuration, and for each lag that they answer with the best causal Butterworth: "Butterworth" for
   // the configuration's, "Butterworth, lag 0".

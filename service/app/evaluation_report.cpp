@@ -6,10 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "app/evaluated_methods.hpp"
 #include "app/version.hpp"
-#include "core/noise/still_noise.hpp"
 #include "core/signal/moments.hpp"
+#include "settings/enum_names.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -130,16 +129,18 @@ Json record_json(const EvaluationRows& rows) {
               {"noise", added ? Json(rows.noise_name) : Json(nullptr)},
               {"noise_axes", added ? axes_json(rows, rows.noise_axes) : Json(nullptr)},
               {"noise_start_sample", added ? Json(rows.noise_start) : Json(nullptr)},
-              {"noise_spare_samples", added ? Json(rows.spare_samples) : Json(nullptr)}};
+              {"noise_spare_samples", added ? Json(rows.spare_samples) : Json(nullptr)},
+              {"calibration", rows.calibration_file.empty() ? Json(nullptr) : Json(rows.calibration_file)}};
 }
 
-Json configuration_json(const EvaluationOptions& options) {
+Json configuration_json(const EvaluationRows& rows, const EvaluationOptions& options) {
   const stream::EngineOptions& engine = options.settings.engine;
   return Json{{"methods", options.methods},
               {"window_samples", engine.window_samples},
               {"hop_samples", engine.hop_samples},
               {"lag_samples", engine.lag_samples},
               {"max_signal_hz", options.settings.denoise.max_signal_hz},
+              {"noise_source", settings::name_of(rows.noise_source)},
               {"turn_repeats", options.turns ? Json(options.turn_repeats) : Json(nullptr)}};
 }
 
@@ -149,6 +150,8 @@ Json row_json(const JudgedRow& row) {
               {"noise_std_dps", row.noise_std_dps},
               {"truth_std_dps", row.truth_std_dps},
               {"noise_model", noise_model_words(row)},
+              {"noise_known_from_sample",
+               row.noise_known_from_sample ? Json(*row.noise_known_from_sample) : Json(nullptr)},
               {"estimators", estimators_json(row)},
               {"guards", guards_json(row)},
               {"turns", turns_json(row)},
@@ -172,36 +175,12 @@ Json with_axis(const Json& evaluation, const char* list) {
 
 }  // namespace
 
-std::vector<std::string> cautions_of(const Evaluation& evaluation) {
-  const auto& [rows, options, judged] = evaluation;
-  std::vector<std::string> all = rows.cautions;
-  const bool guessed = std::ranges::any_of(options.methods, takes_noise_model) &&
-                       !std::ranges::all_of(judged, &JudgedRow::noise_is_known);
-  if (!guessed) return all;
-  const std::string how =
-      "joint and realtime guess it from each window, as the daemon does without a calibration until the "
-      "sensor has been at rest";
-  if (rows.noise_name.empty()) {
-    all.push_back("nothing is known of the noise: " + how);
-  } else {
-    all.push_back(
-        rows.noise_name + ": " + std::to_string(rows.spare_samples) +
-        " samples that are not added are too few to tell the noise, or do not vary (expected at least " +
-        std::to_string(core::kMinStillSamples) + "); " + how);
-  }
-  return all;
-}
-
-const char* noise_model_words(const JudgedRow& row) noexcept {
-  return row.noise_is_known ? "calibrated from the other samples of the noise file" : "unknown";
-}
-
 Json evaluation_json(const Evaluation& evaluation) {
   const auto& [rows, options, judged] = evaluation;
   Json json{{"format", 1},
             {"made_by", std::string("gyrod ") + version()},
             {"record", record_json(rows)},
-            {"configuration", configuration_json(options)},
+            {"configuration", configuration_json(rows, options)},
             {"judged_from_sample", options.range.begin},
             {"judged_to_sample", options.range.end},
             {"lags_samples", options.lag_samples},

@@ -19,7 +19,8 @@ struct Evaluation {
 /// Those of the rows, and what the methods did without.
 [[nodiscard]] std::vector<std::string> cautions_of(const Evaluation& evaluation);
 
-/// What methods with a model of the noise had of this row: "calibrated from the other samples of the noise file" or "unknown".
+/// What methods with a model of the noise had of this row: "calibrated by a file of gyrod calibrate", "calibrated from the other samples of the
+/// noise file", "learned at rest in the record" or "unknown".
 [[nodiscard]] const char* noise_model_words(const JudgedRow& row) noexcept;
 
 /// What the page reads, and evaluation.json holds. Units stand in every key; gains, shares and verdicts have none.

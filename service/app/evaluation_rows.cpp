@@ -9,7 +9,6 @@
 
 #include "app/angle_units.hpp"
 #include "app/evaluation_truth.hpp"
-#include "core/noise/still_noise.hpp"
 #include "core/signal/interpolation.hpp"
 #include "core/signal/moments.hpp"
 #include "files/file_error.hpp"
@@ -35,11 +34,17 @@ files::RecordOptions record_options(const EvaluationInput& input) {
   return options;
 }
 
-std::vector<double> gyro_column(const files::Record& record, const std::string& axis) {
+/// Empty where the record does not have the axis.
+std::vector<double> gyro_rates(const files::Record& record, const std::string& axis) {
   std::vector<double> rates = record.gyro_radps[index_of(axis)];
-  if (rates.empty()) throw files::FileError(record.name + ": has no column gyro_" + axis.back() + "_UNIT");
   const double sign = axis.front() == '-' ? -kDegPerRad : kDegPerRad;
   for (double& value : rates) value *= sign;
+  return rates;
+}
+
+std::vector<double> gyro_column(const files::Record& record, const std::string& axis) {
+  std::vector<double> rates = gyro_rates(record, axis);
+  if (rates.empty()) throw files::FileError(record.name + ": has no column gyro_" + axis.back() + "_UNIT");
   return rates;
 }
 
@@ -58,6 +63,12 @@ std::vector<double> with_gaps_bridged(std::vector<double> values) {
     }
   }
   return values;
+}
+
+std::vector<double> composite(std::vector<double> truth, const std::vector<double>& noise) {
+  std::vector<double> noisy = with_gaps_bridged(std::move(truth));
+  for (std::size_t n = 0; n < noisy.size(); ++n) noisy[n] += noise[n];
+  return noisy;
 }
 
 std::vector<double> without_mean(std::vector<double> values) {
@@ -141,6 +152,8 @@ class RowMaker {
     all_.truth_axes = input_.truth_axes;
     all_.noise_axes = input_.noise_axes;
     all_.noise_start = input_.noise_start;
+    all_.noise_source = input_.known.source;
+    all_.calibration_file = input_.known.calibration_file;
     if (!input_.signal_is_truth) prefix_ = truth_prefix(record_, input_);
     all_.truth_columns = input_.signal_is_truth ? "gyro" : prefix_;
     tell_of_losses(record_, "judged");
@@ -148,16 +161,21 @@ class RowMaker {
 
   [[nodiscard]] EvaluationRows make() {
     if (input_.noise.empty()) {
+      tell_of_calibration({"x", "y", "z"});
       for (const std::string& axis : input_.axes) all_.rows.push_back(measured_row(axis));
+      learn(0, 1.0, nullptr);
       return std::move(all_);
     }
     const files::Record noise = load_noise(input_, record_.sample_rate_hz);
     all_.noise_name = noise.name;
     tell_of_noise(noise);
+    tell_of_calibration(input_.noise_axes);
     for (const auto part : spare(noise.time_s, input_.noise_start, record_.size()))
       all_.spare_samples += part.size();
     for (const double scale : input_.noise_scales) {
+      const std::size_t first = all_.rows.size();
       for (const std::string& axis : input_.axes) all_.rows.push_back(composite_row(axis, scale, noise));
+      learn(first, scale, &noise);
     }
     return std::move(all_);
   }
@@ -176,6 +194,7 @@ class RowMaker {
     row.noise_dps = row.noisy_dps;
     for (std::size_t n = 0; n < row.noise_dps.size(); ++n) row.noise_dps[n] -= row.truth_dps[n];
     row.noise_dps = without_mean(with_gaps_bridged(row.noise_dps));
+    row.noise = told_beforehand(input_.known, axis, {}, 1.0, record_.sample_rate_hz);
     return row;
   }
 
@@ -188,11 +207,46 @@ class RowMaker {
     row.truth_dps = truth(axis);
     const std::size_t samples = row.truth_dps.size();
     row.noise_dps = scaled(without_mean(stretch(all, input_.noise_start, samples)), scale);
-    if (const auto model = core::still_noise(spare(all, input_.noise_start, samples)))
-      row.known_noise = core::scaled(*model, scale * core::kNoiseMargin);
-    row.noisy_dps = with_gaps_bridged(row.truth_dps);
-    for (std::size_t n = 0; n < samples; ++n) row.noisy_dps[n] += row.noise_dps[n];
+    row.noise = told_beforehand(input_.known, input_.noise_axes[index_of(axis)],
+                                spare(all, input_.noise_start, samples), scale, record_.sample_rate_hz);
+    row.noisy_dps = composite(row.truth_dps, row.noise_dps);
     return row;
+  }
+
+  /// What the sensor measures on an axis that is not judged, deg/s; empty where a file lacks what is needed.
+  [[nodiscard]] std::vector<double> beside(const std::string& axis, double scale,
+                                           const files::Record* noise) const {
+    std::vector<double> rates = gyro_rates(record_, axis);
+    if (noise == nullptr) return rates;
+    if (!input_.signal_is_truth) rates = truth(axis);
+    const std::vector<double> added = gyro_rates(*noise, input_.noise_axes[index_of(axis)]);
+    if (rates.empty() || added.empty()) return {};
+    return composite(rates, scaled(without_mean(stretch(added, input_.noise_start, rates.size())), scale));
+  }
+
+  /// Rows from `first` on that are not told beforehand: what is at rest on all axes that there are.
+  void learn(std::size_t first, double scale, const files::Record* noise) {
+    const std::span<EvaluationRow> rows = std::span(all_.rows).subspan(first);
+    if (std::ranges::none_of(rows, [](const EvaluationRow& row) { return row.noise.learns; })) return;
+    std::array<std::vector<double>, 3> others;
+    std::array<std::span<const double>, 3> rates;
+    for (const std::string axis : {"x", "y", "z"}) {
+      const std::size_t i = index_of(axis);
+      const auto judged = std::ranges::find(rows, axis, &EvaluationRow::axis);
+      if (judged == rows.end()) others[i] = beside(axis, scale, noise);
+      rates[i] = judged == rows.end() ? others[i] : judged->noisy_dps;
+    }
+    auto courses = learned_at_rest(rates, record_.sample_rate_hz);
+    for (EvaluationRow& row : rows) {
+      if (row.noise.learns) add_learned(courses[index_of(row.axis)], row.noise);
+    }
+  }
+
+  void tell_of_calibration(const std::array<std::string, 3>& axes) {
+    std::vector<std::string> judged;
+    for (const std::string& axis : input_.axes) judged.push_back(axes[index_of(axis)]);
+    for (std::string& caution : calibration_cautions(input_.known, judged, record_.sample_rate_hz))
+      all_.cautions.push_back(std::move(caution));
   }
 
   void tell_of_losses(const files::Record& record, const std::string& what_becomes) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/noise/noise_model.hpp"
+#include "app/evaluation_noise.hpp"
 #include "files/record.hpp"
 
 namespace gyrod::app {
@@ -29,6 +29,8 @@ struct EvaluationInput {
   std::array<std::string, 3> noise_axes = {"x", "y", "z"};
   std::size_t noise_start = 0;
   std::vector<double> noise_scales = {1.0};
+  /// What is known of the sensor whose noise it is: the one that the noise recording is of, where there is one.
+  NoiseKnowledge known;
   std::vector<std::string> axes = {"x", "y", "z"};
   bool skip_broken_rows = false;
   /// Of both files, as in files::RecordOptions.
@@ -46,9 +48,7 @@ struct EvaluationRow {
   std::vector<double> noisy_dps;  ///< finite
   std::vector<double>
       noise_dps;  ///< finite, mean 0: what is added, or measured minus true, where the truth is lost by straight lines
-  /// The noise of the samples that are not added, core::kNoiseMargin included, deg/s, for methods that know the sensor's noise; nothing: they are too
-  /// few, or there is no noise recording.
-  std::optional<core::NoiseModel> known_noise;
+  RowNoise noise;  ///< what methods that take a model of it are told
 };
 
 struct EvaluationRows {
@@ -59,6 +59,8 @@ struct EvaluationRows {
   std::vector<std::string> axes;          ///< judged
   std::array<std::string, 3> truth_axes;  ///< of x, y, z
   std::array<std::string, 3> noise_axes;
+  settings::NoiseSource noise_source = settings::NoiseSource::kAuto;
+  std::string calibration_file;   ///< empty: none is used
   std::size_t noise_start = 0;    ///< first sample that is added
   std::size_t spare_samples = 0;  ///< of the noise, that are not added
   double rate_hz = 0.0;

@@ -70,6 +70,7 @@ std::string head(const Evaluation& evaluation) {
     text += "noise of " + rows.noise_name + ": " + mapped(rows, rows.noise_axes) + ", from sample " +
             std::to_string(rows.noise_start) + " on, added sample by sample\n";
   }
+  if (!rows.calibration_file.empty()) text += "calibration of the noise: " + rows.calibration_file + "\n";
   return text + "judged: " + joined(options.methods) + " on samples " + std::to_string(options.range.begin) +
          " to " + std::to_string(options.range.end) + "; window " + std::to_string(engine.window_samples) +
          ", hop " + std::to_string(engine.hop_samples) + ", lag " + std::to_string(engine.lag_samples) +
@@ -82,7 +83,10 @@ std::string head(const Evaluation& evaluation) {
 std::string row_name(const JudgedRow& row) {
   return "axis " + row.axis + ", noise " + fixed(row.noise_std_dps, 3) + " deg/s" +
          (row.noise_scale == 1.0 ? std::string() : " (scaled by " + short_number(row.noise_scale) + ")") +
-         ", motion " + fixed(row.truth_std_dps, 3) + " deg/s; noise model " + noise_model_words(row);
+         ", motion " + fixed(row.truth_std_dps, 3) + " deg/s; noise model " + noise_model_words(row) +
+         (row.noise_known_from_sample.value_or(0) > 0
+              ? ", from sample " + std::to_string(*row.noise_known_from_sample) + " on"
+              : "");
 }
 
 std::string line_of(const JudgedEstimator& estimator) {

@@ -46,7 +46,7 @@ core::Contender joint_contender(const JointRun& run, std::span<const double> noi
     const std::size_t end = t >= hop && t % hop == 0 ? t - hop : 0;  // of the window whose model begins here
     if (end >= core::JointFit::kMinSamples) {
       const std::size_t begin = end - std::min(end, run.window_samples);
-      fit.fit(noisy.subspan(begin, end - begin), run.noise, *model, report);
+      fit.fit(noisy.subspan(begin, end - begin), known_at(run.noise, end), *model, report);
       bank.use(*model);
     }
     const core::BankEstimates both = bank.step(noisy[t]);

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
+#include "app/noise_course.hpp"
 #include "core/evaluation/contender.hpp"
 #include "core/joint/joint_options.hpp"
-#include "core/noise/noise_model.hpp"
 
 namespace gyrod::app {
 
@@ -16,8 +16,8 @@ struct JointRun {
   std::size_t window_samples = 1024;
   std::size_t lag_samples = 16;  ///< at most core::kMaxLag
   bool realtime = false;         ///< the answers at once, instead of those with the lag
-  /// The sensor's, in the record's unit; one that is not usable: the windows' own guess.
-  core::NoiseModel noise;
+  /// The sensor's, in the record's unit; nothing, or a model that is not usable: the windows' own guess.
+  NoiseCourse noise;
   core::JointOptions options;  ///< the hop among them
   double max_signal_hz = 0.0;  ///< what is faster counts as noise; 0: nothing does
 };

@@ -54,7 +54,8 @@
       ["window, hop, lag", `${how.window_samples}, ${how.hop_samples}, ${how.lag_samples} samples`],
       ["max_signal_hz", how.max_signal_hz === 0 ? "0: all is signal" : `${tick(how.max_signal_hz)}`],
       ["turns", how.turn_repeats === null ? "none" : `${how.turn_repeats} runs each`],
-      ...evaluation.rows.map((row) => [`noise model, ${rowName(row)}`, row.noise_model]),
+      ...(record.calibration === null ? [] : [["calibration", record.calibration]]),
+      ...evaluation.rows.map((row) => [`noise model, ${rowName(row)}`, row.noise_model + (row.noise_known_from_sample > 0 ? `, from sample ${row.noise_known_from_sample} on` : "")]),
     ];
     table(parent, "What was run", ["what", "is"], rows.map((cells) => ({ cells })), [0, 1], [1]);
   }

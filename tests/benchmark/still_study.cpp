@@ -67,7 +67,7 @@ std::array<StillAxis, 3> load(char imu) {
 std::array<Estimator, 3> estimators(const core::NoiseModel& noise, const settings::Settings& settings) {
   const auto joint = [noise](bool realtime) {
     app::JointRun run;
-    run.noise = noise;
+    run.noise = app::known_throughout(noise);
     run.realtime = realtime;
     return [run](std::span<const double> dps) { return app::joint_contender(run, dps).estimate; };
   };

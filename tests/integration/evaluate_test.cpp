@@ -200,6 +200,7 @@ TEST_F(Evaluate, RecordsWhatWasRun) {
                                         {"hop_samples", 64},
                                         {"lag_samples", 16},
                                         {"max_signal_hz", 20.0},
+                                        {"noise_source", "auto"},
                                         {"turn_repeats", nullptr}}));
   EXPECT_EQ(own["rows"][0]["noise_model"], "unknown");
   EXPECT_THAT(own["cautions"].dump(), HasSubstr("nothing is known of the noise"));

@@ -137,11 +137,12 @@ TEST_F(EvaluationRowsTest, KnowTheNoiseFromBothSidesOfWhatIsAdded) {
   given.noise_scales = {1.0, 3.0};
   const app::EvaluationRows all = app::evaluation_rows(given);
   EXPECT_EQ(all.spare_samples, 2200U);
-  ASSERT_TRUE(all.rows[0].known_noise && all.rows[1].known_noise);
+  ASSERT_EQ(all.rows[0].noise.by, app::NoiseKnownBy::kSpareSamples);
+  ASSERT_EQ(all.rows[1].noise.by, app::NoiseKnownBy::kSpareSamples);
+  const double variance = core::noise_variance(all.rows[0].noise.course.front().model);
   // 2200 samples give a variance to 3 %; the margin of 2 % in level is 4 % in variance.
-  EXPECT_NEAR(core::noise_variance(*all.rows[0].known_noise), 1.04, 0.12);
-  EXPECT_NEAR(core::noise_variance(*all.rows[1].known_noise),
-              9.0 * core::noise_variance(*all.rows[0].known_noise), 1e-9);
+  EXPECT_NEAR(variance, 1.04, 0.12);
+  EXPECT_NEAR(core::noise_variance(all.rows[1].noise.course.front().model), 9.0 * variance, 1e-9);
 }
 
 TEST_F(EvaluationRowsTest, KnowTheNoiseFromWhatLiesBetweenWhereItBeginsAgain) {
@@ -150,10 +151,10 @@ TEST_F(EvaluationRowsTest, KnowTheNoiseFromWhatLiesBetweenWhereItBeginsAgain) {
   app::EvaluationInput given = composite();
   given.noise_start = 2800;  // to the end, and the first 700
   EXPECT_EQ(app::evaluation_rows(given).spare_samples, 2100U);
-  EXPECT_TRUE(app::evaluation_rows(given).rows[0].known_noise);
+  EXPECT_EQ(app::evaluation_rows(given).rows[0].noise.by, app::NoiseKnownBy::kSpareSamples);
   write_signal(signal_row, 1100);  // the first 900: 1900 are left, less than are needed
   EXPECT_EQ(app::evaluation_rows(given).spare_samples, 1900U);
-  EXPECT_FALSE(app::evaluation_rows(given).rows[0].known_noise);
+  EXPECT_EQ(app::evaluation_rows(given).rows[0].noise.by, app::NoiseKnownBy::kNothing);
   write_signal();
   EXPECT_EQ(app::evaluation_rows(given).spare_samples, 0U);
 }

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/evaluated_methods.hpp"
+#include "app/evaluation_report.hpp"
+#include "core/noise/still_noise.hpp"
+
+namespace gyrod::app {
+namespace {
+
+using settings::NoiseSource;
+
+/// "axis x, axis z, noise scaled by 3": of the rows that a caution is about; empty where it is about all.
+std::string rows_of(const std::vector<const JudgedRow*>& some, std::size_t all) {
+  std::string text;
+  if (some.size() == all) return text;
+  for (const JudgedRow* row : some) {
+    text += (text.empty() ? "axis " : ", axis ") + row->axis;
+    if (row->noise_scale != 1.0) text += ", noise scaled by " + report::number_text(row->noise_scale);
+  }
+  return text + ": ";
+}
+
+std::string lack_of_spare(const EvaluationRows& rows) {
+  return rows.noise_name + ": " + std::to_string(rows.spare_samples) +
+         " samples that are not added are too few to tell the noise, or do not vary (expected at least " +
+         std::to_string(core::kMinStillSamples) + ")";
+}
+
+/// Why nothing is known of the noise, and what that means.
+std::string of_guesses(const EvaluationRows& rows) {
+  const std::string restless = "the record shows no rest to learn it from";
+  const std::string guess =
+      "; joint and realtime guess it from each window, as the daemon does without a calibration until the "
+      "sensor has been at rest";
+  switch (rows.noise_source) {
+    case NoiseSource::kImf1:
+      return "noise.source is imf1: joint and realtime guess the noise from each window";
+    case NoiseSource::kStandstill:
+      return "nothing is known of the noise: noise.source is standstill, and " + restless + guess;
+    case NoiseSource::kCalibrated:
+      return lack_of_spare(rows) + guess;
+    case NoiseSource::kAuto:
+      break;
+  }
+  return (rows.noise_name.empty() ? "nothing is known of the noise: " : lack_of_spare(rows) + ", and ") +
+         restless + guess;
+}
+
+/// The rows that are told nothing, and those that are told only within what is judged.
+void tell_of_noise_models(const Evaluation& evaluation, std::vector<std::string>& cautions) {
+  const auto& [rows, options, judged] = evaluation;
+  std::vector<const JudgedRow*> guessed;
+  for (const JudgedRow& row : judged) {
+    if (!row.noise_known_from_sample) guessed.push_back(&row);
+    const std::size_t from = row.noise_known_from_sample.value_or(0);
+    if (from <= options.range.begin) continue;
+    cautions.push_back(rows_of({&row}, judged.size()) + "the noise is known from sample " +
+                       std::to_string(from) +
+                       " on, after the record's first rest; before, joint and realtime guess it");
+  }
+  if (!guessed.empty()) cautions.push_back(rows_of(guessed, judged.size()) + of_guesses(rows));
+}
+
+}  // namespace
+
+std::vector<std::string> cautions_of(const Evaluation& evaluation) {
+  std::vector<std::string> all = evaluation.rows.cautions;
+  if (std::ranges::any_of(evaluation.options.methods, takes_noise_model))
+    tell_of_noise_models(evaluation, all);
+  return all;
+}
+
+const char* noise_model_words(const JudgedRow& row) noexcept {
+  switch (row.noise_known_by) {
+    case NoiseKnownBy::kCalibration:
+      return "calibrated by a file of gyrod calibrate";
+    case NoiseKnownBy::kSpareSamples:
+      return "calibrated from the other samples of the noise file";
+    case NoiseKnownBy::kRest:
+      return "learned at rest in the record";
+    case NoiseKnownBy::kNothing:
+      break;
+  }
+  return "unknown";
+}
+
+}  // namespace gyrod::app

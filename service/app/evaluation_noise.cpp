@@ -1,0 +1,97 @@
+#include "app/evaluation_noise.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/angle_units.hpp"
+#include "app/calibration_choice.hpp"
+#include "app/offline_denoiser.hpp"
+#include "core/noise/noise_units.hpp"
+#include "core/noise/still_noise.hpp"
+#include "report/json.hpp"
+#include "stream/standstill_noise.hpp"
+
+namespace gyrod::app {
+namespace {
+
+using settings::NoiseSource;
+
+std::size_t sensor_axis(const std::string& axis) { return static_cast<std::size_t>(axis.back() - 'x'); }
+
+RowNoise known_by(NoiseKnownBy by, const core::NoiseModel& model) {
+  return {by, known_throughout(model), 0, false};
+}
+
+/// As a channel of the daemon has it at that rate, deg/s.
+core::NoiseModel calibrated_model(const settings::NoiseCalibration& calibration, const std::string& axis,
+                                  double rate_hz) {
+  stream::StandstillOptions options;
+  options.sample_rate_hz = rate_hz;
+  options.calibrated = stream::CalibratedNoise{calibration.sample_rate_hz, calibration.models};
+  return core::scaled(stream::noise_beforehand(options).axis[sensor_axis(axis)], kDegPerRad);
+}
+
+}  // namespace
+
+NoiseKnowledge noise_knowledge(const std::string& calibration, const std::string& sensor,
+                               const settings::NoiseSettings& settings) {
+  if (!calibration.empty())
+    return {NoiseSource::kCalibrated, calibration,
+            choose_calibration("--calibration", calibration, sensor).calibration};
+  NoiseKnowledge known{settings.source, "", std::nullopt};
+  const bool wanted = settings.source == NoiseSource::kAuto || settings.source == NoiseSource::kCalibrated;
+  if (!wanted || settings.calibrations.empty()) return known;
+  const auto calibrations = settings::load_calibrations(settings.calibrations);
+  const std::string id = sensor.empty() ? OfflineChoice{}.sensor : sensor;
+  if (const auto* found = settings::calibration_for(calibrations, id)) {
+    known.calibration_file = settings.calibrations;
+    known.calibration = *found;
+  }
+  return known;
+}
+
+RowNoise told_beforehand(const NoiseKnowledge& known, const std::string& axis,
+                         const std::vector<std::span<const double>>& spare, double scale, double rate_hz) {
+  if (known.calibration) {
+    return known_by(NoiseKnownBy::kCalibration,
+                    core::scaled(calibrated_model(*known.calibration, axis, rate_hz), scale));
+  }
+  const bool may_learn = known.source == NoiseSource::kAuto || known.source == NoiseSource::kStandstill;
+  const bool may_be_told = known.source == NoiseSource::kAuto || known.source == NoiseSource::kCalibrated;
+  const auto model = may_be_told ? core::still_noise(spare) : std::nullopt;
+  if (model) return known_by(NoiseKnownBy::kSpareSamples, core::scaled(*model, scale * core::kNoiseMargin));
+  RowNoise nothing;
+  nothing.learns = may_learn;
+  return nothing;
+}
+
+void add_learned(NoiseCourse learned, RowNoise& noise) {
+  noise.course = std::move(learned);
+  const auto first = std::ranges::find_if(
+      noise.course, [](const KnownNoise& known) { return core::is_usable(known.model); });
+  if (first == noise.course.end()) return;
+  noise.by = NoiseKnownBy::kRest;
+  noise.from_sample = first->from_sample;
+}
+
+std::vector<std::string> calibration_cautions(const NoiseKnowledge& known,
+                                              const std::vector<std::string>& axes, double rate_hz) {
+  std::vector<std::string> cautions;
+  if (!known.calibration) return cautions;
+  const settings::NoiseCalibration& calibration = *known.calibration;
+  const auto some = std::ranges::find_if(calibration.models, core::is_usable);
+  if (core::at_rate(*some, calibration.sample_rate_hz, rate_hz) != *some) {
+    cautions.push_back(known.calibration_file + ": holds for " +
+                       report::number_text(calibration.sample_rate_hz) + " Hz; at " +
+                       report::number_text(rate_hz) +
+                       " Hz only its mean density is kept, as white noise, as in the daemon");
+  }
+  for (const std::string& axis : axes) {
+    if (core::is_usable(calibration.models[sensor_axis(axis)])) continue;
+    cautions.push_back(known.calibration_file + ": has no axis " + axis.substr(axis.size() - 1) +
+                       ", which is given the strongest of the others, as in the daemon");
+  }
+  return cautions;
+}
+
+}  // namespace gyrod::app

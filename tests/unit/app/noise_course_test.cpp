@@ -1,0 +1,110 @@
+// What is known of the noise in the course of a record, and what an evaluated method makes of it, against `gyrod denoise`.
+#include "app/noise_course.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "app/angle_units.hpp"
+#include "app/evaluated_methods.hpp"
+#include "app/record_denoiser.hpp"
+#include "support/signals.hpp"
+
+namespace gyrod {
+namespace {
+
+using namespace testing;
+
+constexpr double kCourseRateHz = 100.0;
+constexpr std::size_t kRest = 6000;
+constexpr std::size_t kWhole = 9000;
+
+/// deg/s: a minute at rest, then a swing of 5 deg/s; noise of 0.2 deg/s with a line at 20 Hz, which a guess takes for motion.
+Signal rest_then_swing(unsigned seed) {
+  Signal rates = sum(times(white_noise(kWhole, seed), 0.16), tone(kWhole, 0.2), 0.16);
+  for (std::size_t n = kRest; n < kWhole; ++n)
+    rates[n] += 5.0 * std::sin(0.02 * static_cast<double>(n - kRest));
+  return rates;
+}
+
+std::size_t first_known(const app::NoiseCourse& course) {
+  const auto first =
+      std::ranges::find_if(course, [](const app::KnownNoise& known) { return core::is_usable(known.model); });
+  return first == course.end() ? kWhole : first->from_sample;
+}
+
+TEST(NoiseCourse, HoldsFromItsSampleUntilTheNext) {
+  const app::NoiseCourse course = {{10, core::white_noise(1.0)}, {20, core::white_noise(4.0)}};
+  EXPECT_FALSE(core::is_usable(app::known_at(course, 9)));
+  EXPECT_EQ(app::known_at(course, 10).white_variance, 1.0);
+  EXPECT_EQ(app::known_at(course, 19).white_variance, 1.0);
+  EXPECT_EQ(app::known_at(course, 20).white_variance, 4.0);
+  EXPECT_FALSE(core::is_usable(app::known_at({}, 20)));
+  EXPECT_EQ(app::known_at(app::known_throughout(core::white_noise(9.0)), 0).white_variance, 9.0);
+}
+
+// The first models come after about 15 s. A minute gives a variance to 2 %; the margin of 2 % in level is 4 % in variance.
+TEST(LearnedAtRest, IsTheNoiseOfEachAxis) {
+  const Signal x = times(white_noise(kRest, 1), 0.1);
+  const Signal z = times(white_noise(kRest, 3), 0.3);
+  const auto courses = app::learned_at_rest({x, {}, z}, kCourseRateHz);
+  EXPECT_GT(first_known(courses[0]), 1000U);
+  EXPECT_LT(first_known(courses[0]), 2500U);
+  EXPECT_NEAR(core::noise_variance(courses[0].back().model), 1.04 * 0.01, 0.0008);
+  EXPECT_NEAR(core::noise_variance(courses[2].back().model), 1.04 * 0.09, 0.0072);
+  EXPECT_EQ(courses[1].back().model,
+            courses[2].back().model);  // the strongest stands in for what is not there
+}
+
+TEST(LearnedAtRest, IsNothingWhereAnotherAxisMoves) {
+  const Signal still = times(white_noise(kRest, 1), 0.1);
+  const Signal moved = sum(still, tone(kRest, 0.003), 2.0);
+  EXPECT_LT(first_known(app::learned_at_rest({still, still, {}}, kCourseRateHz)[0]), kWhole);
+  EXPECT_EQ(first_known(app::learned_at_rest({still, moved, {}}, kCourseRateHz)[0]), kWhole);
+}
+
+/// Largest difference between what `gyrod denoise` makes of x and what is judged, deg/s, from where the engine's first window is over.
+double worst_difference(const char* name, app::EstimateKind kind, const app::MethodContext& context,
+                        const std::array<Signal, 3>& rates_dps) {
+  files::Record record;
+  record.sample_rate_hz = kCourseRateHz;
+  for (std::size_t n = 0; n < kWhole; ++n) {
+    record.time_s.push_back(static_cast<double>(n) / kCourseRateHz);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!rates_dps[axis].empty()) record.gyro_radps[axis].push_back(app::kRadPerDeg * rates_dps[axis][n]);
+    }
+  }
+  settings::Settings settings;
+  settings.engine.sample_rate_hz = kCourseRateHz;
+  const auto published = app::estimate_record(record, settings, kind)[0];
+  const auto judged = app::evaluated_method(name, context).run(rates_dps[0]).estimate;
+  double worst = 0.0;
+  for (std::size_t t = 5000; t < kWhole; ++t)
+    worst = std::max(worst, std::abs(judged[t] - app::kDegPerRad * published[t]));
+  return worst;
+}
+
+// Before anything is known the daemon also bounds the noise by the quietest axis. What came of that is forgotten by the second half of the rest, but
+// for what models remember.
+TEST(LearnedAtRest, IsUsedFromTheSameSampleOnAsTheDaemonDoes) {
+  const settings::Settings settings;
+  const std::array<Signal, 3> rates = {rest_then_swing(1), rest_then_swing(2), rest_then_swing(3)};
+  const auto course = app::learned_at_rest({rates[0], rates[1], rates[2]}, kCourseRateHz)[0];
+  const app::MethodContext learned{settings, settings.engine.lag_samples, kCourseRateHz, course};
+  const app::MethodContext guessing{settings, settings.engine.lag_samples, kCourseRateHz, {}};
+  EXPECT_LT(worst_difference("joint", app::EstimateKind::kDenoised, learned, rates), 1e-6);
+  EXPECT_LT(worst_difference("realtime", app::EstimateKind::kRealtime, learned, rates), 1e-6);
+  EXPECT_GT(worst_difference("joint", app::EstimateKind::kDenoised, guessing, rates), 0.05);
+}
+
+TEST(LearnedAtRest, IsWhatARunShowsItselfWhereItLearnsItself) {
+  const settings::Settings settings;
+  const std::array<Signal, 3> rates = {rest_then_swing(1), {}, {}};
+  const app::MethodContext learning{settings, settings.engine.lag_samples, kCourseRateHz, {}, true};
+  EXPECT_LT(worst_difference("joint", app::EstimateKind::kDenoised, learning, rates), 1e-6);
+}
+
+}  // namespace
+}  // namespace gyrod
