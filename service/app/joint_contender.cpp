@@ -38,7 +38,8 @@ core::Contender joint_contender(const JointRun& run, std::span<const double> noi
   if (run.max_signal_hz > 0.0 && run.sample_rate_hz > 0.0)
     fit.set_max_signal(run.max_signal_hz / run.sample_rate_hz);
   core::KalmanBank bank(run.options, run.lag_samples);
-  if (core::is_usable(run.noise)) bank.expect_noise(core::noise_variance(run.noise));
+  const core::NoiseModel first = known_at(run.noise, 1);
+  if (core::is_usable(first)) bank.expect_noise(core::noise_variance(first));
   const auto model = std::make_unique<core::JointModel>();
   core::WindowReport report;
   Estimates estimates(noisy.size());
