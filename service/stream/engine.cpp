@@ -69,7 +69,11 @@ void Engine::Impl::submit(Channel& channel, WindowJob job) {
   job.sample_rate_hz = channel.gate.rate_hz();
   job.noise = channel.noise;
   if (channel.learner) job.at_rest = channel.learner->at_rest();
-  if (channel.fast_loop) job.model_fit = channel.fast_loop->model_fit();
+  if (channel.fast_loop) {
+    job.model_fit = channel.fast_loop->model_fit();
+    if (channel.fast_loop->misfit()) job.flags |= static_cast<std::uint32_t>(SampleFlag::kModelMisfit);
+    if (channel.models_late) job.flags |= static_cast<std::uint32_t>(SampleFlag::kHopWidened);
+  }
   job.submitted_s = clock_();  // before the wait, which is part of the latency
   wait_while(channel, [&channel] { return !channel.can_submit(); });
   {

@@ -1,5 +1,6 @@
 #include "stream/joint_method.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -16,10 +17,28 @@ constexpr double kMostOfQuietest = 2.0;
 constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;
 
+/// Rates further apart than this, in parts, are not two estimates of one.
+constexpr double kOtherRate = 0.1;
+
 struct JointState final : Model {
-  void reset() noexcept override { joint = {}; }
+  void reset() noexcept override {
+    joint = {};
+    sample_rate_hz = 0.0;
+  }
   [[nodiscard]] double noise_variance() const noexcept override { return joint.noise_variance; }
+  /// What was learned of the noise is by cycles per sample: it does not hold at another rate.
+  void follow_rate(double rate_hz) noexcept {
+    if (!(rate_hz > 0.0)) return;
+    if (sample_rate_hz > 0.0 && std::abs(rate_hz - sample_rate_hz) > kOtherRate * sample_rate_hz) {
+      joint.noise = {};
+      joint.line = {};
+      joint.noise_variance = 0.0;
+      sample_rate_hz = rate_hz;
+    }
+    if (sample_rate_hz == 0.0) sample_rate_hz = rate_hz;
+  }
   core::JointModel joint;
+  double sample_rate_hz = 0.0;  ///< that the windows so far had; 0 while unknown
 };
 
 class JointMethod final : public ModelMethod {
@@ -32,6 +51,7 @@ class JointMethod final : public ModelMethod {
   void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept override {
     const bool known = window.noise_source != NoiseSource::kNone;
     const bool limited = max_signal_hz_ > 0.0 && window.sample_rate_hz > 0.0;
+    static_cast<JointState&>(model).follow_rate(window.sample_rate_hz);
     fit_.set_sample_rate(window.sample_rate_hz);
     fit_.set_most_noise(window.others_noise > 0.0 ? kMostOfQuietest * window.others_noise
                                                   : std::numeric_limits<double>::infinity());

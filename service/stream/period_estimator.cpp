@@ -16,16 +16,24 @@ void PeriodEstimator::add(std::int64_t interval_ns) noexcept {
 }
 
 void PeriodEstimator::evaluate() noexcept {
-  double sum = 0.0;
-  for (const std::int64_t interval : intervals_) sum += static_cast<double>(interval);
   const auto middle = intervals_.begin() + kIntervals / 2;
   std::nth_element(intervals_.begin(), middle, intervals_.end());
   const auto median = static_cast<double>(*middle);
-  const auto near = std::count_if(intervals_.begin(), intervals_.end(), [median](std::int64_t interval) {
-    return std::abs(static_cast<double>(interval) - median) <= kTolerance * median;
-  });
-  regular_ = static_cast<std::size_t>(near) >= kRegularIntervals;
-  if (!configured_) period_ns_ = regular_ ? median : sum / static_cast<double>(kIntervals);
+  double sum = 0.0;
+  double near_sum = 0.0;
+  std::size_t near = 0;
+  catches_up_ = false;
+  for (const std::int64_t interval : intervals_) {
+    sum += static_cast<double>(interval);
+    catches_up_ = catches_up_ || static_cast<double>(interval) < 0.5 * median;
+    if (std::abs(static_cast<double>(interval) - median) > kTolerance * median) continue;
+    near_sum += static_cast<double>(interval);
+    ++near;
+  }
+  regular_ = near >= kRegularIntervals;
+  // Not the median itself: of stamps in whole milliseconds that is a whole number of them, up to 11 % off.
+  if (!configured_)
+    period_ns_ = regular_ ? near_sum / static_cast<double>(near) : sum / static_cast<double>(kIntervals);
 }
 
 }  // namespace gyrod::stream

@@ -23,12 +23,12 @@ class PeriodEstimator {
   /// Takes the interval between two neighbouring samples, ns, positive.
   void add(std::int64_t interval_ns) noexcept;
 
-  /// Sample period in ns, 0 while unknown: the median where the stamps are regular, else their mean (a host
+  /// Sample period in ns, 0 while unknown: the mean of the intervals near the median where the stamps are regular, else of all (a host
   /// that stamps bursts has a median far below the period). A configured rate wins.
   [[nodiscard]] double period_ns() const noexcept { return period_ns_; }
 
   /// True where stamps alone show that samples are missing.
-  [[nodiscard]] bool regular() const noexcept { return regular_; }
+  [[nodiscard]] bool regular() const noexcept { return regular_ && !catches_up_; }
 
   /// Sample rate in Hz, 0 while unknown.
   [[nodiscard]] double rate_hz() const noexcept { return period_ns_ > 0.0 ? 1e9 / period_ns_ : 0.0; }
@@ -41,6 +41,8 @@ class PeriodEstimator {
   bool configured_;
   double period_ns_;
   bool regular_;
+  bool catches_up_ =
+      false;  ///< an interval is far too short, which no loss makes: a host stamps late at times
 };
 
 }  // namespace gyrod::stream

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -139,6 +140,33 @@ TEST(JointMethod, ExpectsTheNoiseThatIsKnownFromTheFirstSampleOfAStretch) {
     EXPECT_NEAR(realtime[0].rate_std_radps[axis], 0.5 * times, 1e-6) << axis;
     EXPECT_NEAR(realtime[40].rate_std_radps[axis], 33.0 * times, 1e-4) << axis;
   }
+}
+
+// At twice the rate, the noise is of twice the variance a sample; what was believed of it at the old rate held for a minute.
+TEST(JointMethod, BelievesNothingOfTheNoiseThatItLearnedAtAnotherRate) {
+  RecordingSink sink;
+  EngineOptions options = small_options();
+  options.window_samples = 512;
+  Engine engine(options, joint_method({}), sink);
+  auto input = noisy_samples(4000);
+  for (Sample& sample : input) {
+    const bool later = sample.sequence >= 2000;
+    for (double& rate : sample.rate_radps)
+      rate = (later ? 2.0 : 1.0) * (rate - 0.1 * std::sin(0.01 * static_cast<double>(sample.sequence)));
+    if (later)
+      sample.stamp_ns = (input[1999].stamp_ns + input[0].stamp_ns) +
+                        static_cast<std::int64_t>(sample.sequence - 1999) * 5'000'000;
+  }
+  engine.push("imu", input);
+  const auto reports = sink.reports("imu");
+  const auto floor_at = [&reports](std::uint64_t sequence) {
+    return std::ranges::find_if(
+               reports, [sequence](const NoiseReport& report) { return report.last_sequence >= sequence; })
+        ->axis[0]
+        .noise_floor;
+  };
+  EXPECT_NEAR(floor_at(1999), 0.006, 0.0009);
+  EXPECT_NEAR(floor_at(2700), 0.012, 0.0018) << "a window, and what it takes to notice";
 }
 
 TEST(PaperMethod, TakesTheNoiseThatIsKnownInsteadOfImf1s) {

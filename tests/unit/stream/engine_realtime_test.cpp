@@ -152,6 +152,12 @@ TEST(EngineWithModels, ReportsTheFitAsOfTheWindowsEnd) {
   EXPECT_FALSE((*reports[1].model_fit)[0].misfit);
   EXPECT_FALSE((*reports[2].model_fit)[1].misfit);
   EXPECT_EQ((*reports[2].model_fit)[1].misfits, 1U);
+  const auto flagged = [](const NoiseReport& report) {
+    return (report.flags & static_cast<std::uint32_t>(SampleFlag::kModelMisfit)) != 0;
+  };
+  EXPECT_FALSE(flagged(reports[0]));
+  EXPECT_TRUE(flagged(reports[1])) << "as the samples that are released with it";
+  EXPECT_FALSE(flagged(reports[2]));
 }
 
 TEST(Engine, ReportsNoFitOfAWindowMethodAndItsOutputNoiseAsEverySamplesDeviation) {

@@ -250,6 +250,35 @@ TEST_F(SampleGateTest, TakesALateStampForWhatItIs) {
   EXPECT_EQ(gate_.judge(sample_at(201)).missing, 0U);
 }
 
+// The median of such intervals is a whole number of milliseconds: 125 Hz for 120, 250 for 225.
+TEST(SampleGate, ReadsTheRateFromStampsInWholeMilliseconds) {
+  for (const double rate_hz : {99.0, 104.0, 119.0, 120.0, 208.0, 225.0, 286.0, 400.0}) {
+    SampleGate gate({.sample_rate_hz = 0.0, .max_rate_radps = 175.0, .max_bridged_samples = 16});
+    for (std::uint64_t n = 0; n < 1000; ++n) {
+      Sample sample = sample_at(n);
+      sample.stamp_ns = std::llround(1e3 * static_cast<double>(n) / rate_hz) * 1'000'000;
+      ASSERT_EQ(gate.judge(sample).bridge, 0U) << rate_hz << " Hz, sample " << n;
+      // The stamps of 64 intervals' ends are half a millisecond off at most.
+      if (n < 64) continue;
+      ASSERT_NEAR(gate.rate_hz(), rate_hz, rate_hz * rate_hz / 64.0 * 1.001e-3) << n;
+    }
+  }
+}
+
+// A host that reads one tick late stamps nearly a whole period late, and the next sample right behind: nothing is missing.
+TEST_F(SampleGateTest, TakesStampsThatAreOftenAPeriodLateForNoLoss) {
+  std::uint64_t missing = 0;
+  for (std::uint64_t n = 0; n < 5000; ++n) {
+    Sample sample = sample_at(n);
+    if (n % 50 == 49) sample.stamp_ns += kPeriodNs - 100'000;
+    const Verdict verdict = gate_.judge(sample);
+    ASSERT_EQ(verdict.kind, Kind::kAccept);
+    missing += verdict.missing + verdict.bridge;
+  }
+  EXPECT_EQ(missing, 0U);
+  EXPECT_NEAR(gate_.rate_hz(), 100.0, 0.1);
+}
+
 TEST_F(SampleGateTest, TakesAClockThatIsSetForANewBeginning) {
   feed(200);
   Sample sample = sample_at(200);
