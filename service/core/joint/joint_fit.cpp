@@ -104,7 +104,7 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
   line_ = model.line.line(options_.line);
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
-  model.noise.observe(periodogram_, whittle_.noise(), believed, new_share());
+  model.noise.observe(periodogram_, whittle_.noise(), believed, new_share(), scale_.forgetting(new_share()));
   const NoiseShape& shape = model.noise.shape();
   if (belief == NoiseBelief::kColour) {
     noise_ = scaled(model.line.rest(), std::sqrt(shape.level));

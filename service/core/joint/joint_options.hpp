@@ -144,7 +144,7 @@ struct JointOptions {
   double residual_memory = 16.0;
   /// A window's samples are a knock, and left out of its fit, where their squared second differences, smoothed, are above knock_tail times
   /// the median and reach knock_ratio times it, and where knocks are at most knock_share of the window. Range 1..1e12; 1..1e12; 0..1.
-  double knock_ratio = 100.0;
+  double knock_ratio = 25.0;
   double knock_tail = 5.0;
   double knock_share = 0.25;
   LineOptions line;
@@ -169,6 +169,8 @@ class JointScale {
   /// shrinkage * shorter, at most 0.1: the less a window tells, the more the prior does.
   [[nodiscard]] double shrinkage(double shrinkage) const noexcept;
 
+  /// share / shorter: what is forgotten in a window's length at the design's rate and window takes the same seconds here.
+  [[nodiscard]] double forgetting(double share) const noexcept { return share / shorter_; }
   /// samples * faster: the same seconds.
   [[nodiscard]] double memory(double samples) const noexcept { return samples * faster_; }
   /// rate * fewer / faster, at most 0.1: the same seconds; and it makes up for the window's mean, which wanders faster in a shorter window.

@@ -89,7 +89,7 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
 }
 
 void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
-                           const NoiseModel& believed, double share) noexcept {
+                           const NoiseModel& believed, double share, double forgetting) noexcept {
   assert(periodogram.size() == noise.size() && periodogram.size() > kNoiseBands);
   if (believed != believed_ || weight_ == 0.0) restate(noise, believed);
   if (!std::ranges::all_of(ratio_, [](double ratio) { return std::isfinite(ratio); })) {
@@ -99,7 +99,8 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   weight_ = std::min(weight_ + share, kMemory);
   const double gain = std::min(share / weight_, 1.0);
   const NoiseBelief belief = belief_in(believed_);
-  const double growth = 1.0 + share * (belief == NoiseBelief::kColour ? kForgettingMeasured : kForgetting);
+  const double growth =
+      1.0 + forgetting * (belief == NoiseBelief::kColour ? kForgettingMeasured : kForgetting);
   BandPower bounded{};
   for (std::size_t band = 0; band < kNoiseBands; ++band) {
     const auto seen = bins_of(periodogram, band);
@@ -111,10 +112,17 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
     bounded[band] = std::min(ratio_[band], kRise * least_[band]);
   }
   find_far_level(bounded);
+  rose_ = belief != NoiseBelief::kNothing && weight_ >= 1.0 && are_alike_above(ratio_, kMotion);
   if (belief == NoiseBelief::kColour)
     shape_ = {.level = far_level_ > 0.0 ? far_level_ : level_of(ratio_, bounded)};
   else if (far_level_ == 0.0)
     shape_ = likely_shape(bounded, belief == NoiseBelief::kLevel);
+}
+
+/// Whether all bands are further above what is believed than this, the most of them alike.
+bool NoiseTracker::are_alike_above(BandPower power, double least) noexcept {
+  std::ranges::sort(power);
+  return power.front() > least && power[kNoiseBands - 2] <= kAlike * power[1];
 }
 
 /// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that. It counts for as
@@ -144,7 +152,8 @@ void NoiseTracker::find_far_level(const BandPower& power) noexcept {
 }
 
 bool NoiseTracker::disagrees() const noexcept {
-  return belief_in(believed_) != NoiseBelief::kNothing && (level() < kTooQuiet || level() > kTooLoud);
+  return belief_in(believed_) != NoiseBelief::kNothing &&
+         (level() < kTooQuiet || level() > kTooLoud || rose_);
 }
 
 }  // namespace gyrod::core

@@ -30,8 +30,9 @@ class NoiseTracker {
   /// @param believed the channel's noise in the data's unit; `noise` is its spectrum at variance 1, or 1 where nothing is believed. Where that has
   ///   changed, what is remembered is restated
   /// @param share how much of a window is new since the last one, 0..1: hop / window
+  /// @param forgetting the same in parts of the design's window, in seconds (JointScale::forgetting()): by that the least is forgotten
   void observe(std::span<const double> periodogram, std::span<const double> noise, const NoiseModel& believed,
-               double share) noexcept;
+               double share, double forgetting) noexcept;
 
   /// Power of the noise in parts of the believed one, and its tilt where no colour is believed (likely_shape()).
   /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1. Above 1 the smaller of
@@ -43,10 +44,12 @@ class NoiseTracker {
   [[nodiscard]] const NoiseShape& shape() const noexcept { return shape_; }
   [[nodiscard]] double level() const noexcept { return shape_.level; }
 
-  /// True where the level is so far from 1 that the believed noise is wrong.
+  /// True where the level is so far from 1 that the believed noise is wrong; and where all bands have become louder alike, for as long as that
+  /// lasts: noise that has become stronger, or shaking at all frequencies, which is not believed to be noise before it has lasted for minutes.
   [[nodiscard]] bool disagrees() const noexcept;
 
  private:
+  [[nodiscard]] static bool are_alike_above(BandPower power, double least) noexcept;
   void find_far_level(const BandPower& power) noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
 
@@ -56,6 +59,7 @@ class NoiseTracker {
   BandPower least_{};       ///< that ratio_ was of late
   double weight_ = 0.0;     ///< of what was observed, in windows
   double far_level_ = 0.0;  ///< of noise far above what is believed; 0 where it is not
+  bool rose_ = false;       ///< all bands are louder than believed, alike
   NoiseShape shape_;
 };
 

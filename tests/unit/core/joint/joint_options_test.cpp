@@ -75,6 +75,13 @@ TEST(JointScale, WhatIsSteadyIsSoForTheSameSeconds) {
   EXPECT_EQ(JointScale(120.0, 512).memory(512.0), 512.0);
 }
 
+// A window of the design forgets a share; a window of a quarter of its seconds a quarter.
+TEST(JointScale, ForgetsInTheSameSeconds) {
+  EXPECT_NEAR(JointScale(480.0, 1024).forgetting(0.03), 0.0075, 1e-15);
+  EXPECT_NEAR(JointScale(120.0, 512).forgetting(0.03), 0.015, 1e-15);
+  EXPECT_EQ(JointScale(480.0, 4096).forgetting(0.03), 0.03);
+}
+
 // Half the samples, twice the rate, whatever the seconds.
 TEST(JointScale, TheCorrectionKeepsPaceWithTheWindow) {
   EXPECT_NEAR(JointScale(120.0, 512).correction_rate(0.004), 0.008, 1e-15);

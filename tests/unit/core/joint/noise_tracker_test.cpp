@@ -32,7 +32,7 @@ NoiseModel coloured(double level = 1.0) {
 
 void watch(NoiseTracker& tracker, const Spectrum& power, int windows,
            const NoiseModel& believed = coloured()) {
-  for (int i = 0; i < windows; ++i) tracker.observe(power, Spectrum(kBins, 1.0), believed, kShare);
+  for (int i = 0; i < windows; ++i) tracker.observe(power, Spectrum(kBins, 1.0), believed, kShare, kShare);
 }
 
 NoiseTracker watched(const Spectrum& power, const NoiseModel& believed = coloured()) {
@@ -147,6 +147,20 @@ TEST(NoiseTracker, BelievesNoiseThatStaysStronger) {
   EXPECT_TRUE(tracker.disagrees());
 }
 
+// Ten times the power from one minute to the next, as of a sensor that is failing: told at once, whatever is made of it.
+TEST(NoiseTracker, SaysAtOnceThatAllBandsHaveBecomeLouder) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(1.0), 96);
+  EXPECT_FALSE(tracker.disagrees());
+  watch(tracker, spectrum(10.0), 32);
+  EXPECT_LT(tracker.level(), 1.4);
+  EXPECT_TRUE(tracker.disagrees());
+  watch(tracker, spectrum(1.0), 32 * 8);
+  EXPECT_FALSE(tracker.disagrees());
+  watch(tracker, spectrum(1.0, 9.0, 5), 32 * 8);
+  EXPECT_FALSE(tracker.disagrees()) << "what shakes leaves some bands as they were";
+}
+
 // Of which nothing is known, and which has become twice as strong: 4 / 1.15 = 1.03^42.
 TEST(NoiseTracker, BelievesUnknownNoiseThatDoublesWithinFortyWindows) {
   NoiseTracker tracker;
@@ -158,6 +172,16 @@ TEST(NoiseTracker, BelievesUnknownNoiseThatDoublesWithinFortyWindows) {
 }
 
 // The sensor is as it was; half as much noise is believed from now on.
+// Windows of half a second follow one another as quickly as those of nine; what shakes for a minute is not noise for that.
+TEST(NoiseTracker, ForgetsByTheSecondNotByTheWindow) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(1.0), 96, {});
+  const double before = tracker.level();
+  for (int i = 0; i < 32 * 40; ++i)
+    tracker.observe(spectrum(4.0), Spectrum(kBins, 1.0), {}, kShare, kShare / 16.0);
+  EXPECT_LT(tracker.level(), 1.3 * before);
+}
+
 TEST(NoiseTracker, RestatesWhatItKnowsWhereAnotherModelIsBelieved) {
   NoiseTracker tracker;
   watch(tracker, spectrum(0.7), 96, coloured(2.0));
