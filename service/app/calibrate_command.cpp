@@ -28,8 +28,9 @@ constexpr double kSqrtSecondsPerSqrtHour = 60.0;
 struct CalibrateFlags {
   std::string input;
   std::string output;
-  std::vector<double> density_dps;  ///< of a data sheet; one for all axes or three
-  std::vector<double> arw_deg;      ///< likewise
+  std::vector<double> density_dps;     ///< of a data sheet; one for all axes or three
+  std::vector<double> arw_deg;         ///< likewise
+  std::optional<double> bandwidth_hz;  ///< of the sensor's low-pass, with one of these
   std::optional<double> from_s;
   std::optional<double> to_s;
   files::RecordOptions record;
@@ -51,13 +52,15 @@ void check_flags(const CalibrateFlags& flags) {
     throw CLI::ValidationError("--rate is missing; expected the sensor's sample rate in Hz");
   if (flags.from_data_sheet() && (flags.from_s || flags.to_s || flags.calibration.all_still))
     throw CLI::ValidationError("--from, --to and --all-still are for a recording");
+  if (flags.bandwidth_hz && !flags.from_data_sheet())
+    throw CLI::ValidationError("--bandwidth is for --noise-density or --arw: a recording shows it");
   if (flags.from_s && flags.to_s && *flags.from_s >= *flags.to_s) {
     throw CLI::ValidationError("--from", fmt::format("{:g} is not before --to {:g}; nothing lies between",
                                                      *flags.from_s, *flags.to_s));
   }
 }
 
-/// White noise: a data sheet tells no colour.
+/// White noise, behind the sensor's low-pass where that is told: a data sheet knows no other colour.
 settings::NoiseCalibration from_data_sheet(const CalibrateFlags& flags) {
   const bool density = !flags.density_dps.empty();
   const std::vector<double>& values = density ? flags.density_dps : flags.arw_deg;
@@ -69,9 +72,13 @@ settings::NoiseCalibration from_data_sheet(const CalibrateFlags& flags) {
     const double value = values[values.size() == 1 ? 0 : a] * kRadPerDeg;
     calibration.models[a] = density ? core::from_noise_density(value, rate)
                                     : core::from_angle_random_walk(value / kSqrtSecondsPerSqrtHour, rate);
+    if (flags.bandwidth_hz)
+      calibration.models[a] = core::behind_low_pass(calibration.models[a], *flags.bandwidth_hz, rate);
   }
   calibration.origin.source = fmt::format(
       "{} {}", density ? "noise density, deg/s/sqrt(Hz):" : "ARW, deg/sqrt(h):", fmt::join(values, " "));
+  if (flags.bandwidth_hz)
+    calibration.origin.source += fmt::format("; bandwidth {:g} Hz", *flags.bandwidth_hz);
   return calibration;
 }
 
@@ -195,6 +202,12 @@ void add_data_sheet(CLI::App& command, CalibrateFlags& flags) {
       ->delimiter(',')
       ->expected(1, 3)
       ->check(in_range(1e-9, 1e4));
+  command
+      .add_option("--bandwidth", flags.bandwidth_hz,
+                  "With one of these: -3 dB frequency of the sensor's own low-pass (DLPF, LPF1) in Hz [half "
+                  "of --rate]")
+      ->type_name("HZ")
+      ->check(in_range(1e-3, 1e6));
 }
 
 }  // namespace
@@ -221,7 +234,8 @@ void add_calibrate(CLI::App& parser, Action& chosen) {
       "Examples:\n"
       "  gyrod calibrate still.csv.gz -o front.json --sensor front\n"
       "  gyrod calibrate drive.csv --from 0 --to 90 -o front.json\n"
-      "  gyrod calibrate --noise-density 0.05 --rate 100 -o adis16405.json");
+      "  gyrod calibrate --noise-density 0.05 --rate 100 -o adis16405.json\n"
+      "  gyrod calibrate --noise-density 0.005 --bandwidth 42 --rate 200 -o mpu6050.json");
   command->callback([&chosen, flags] {
     chosen = [flags](Interrupt& interrupt) { return calibrate_or_interrupted(*flags, interrupt); };
   });

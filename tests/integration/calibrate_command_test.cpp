@@ -89,6 +89,19 @@ TEST_F(CalibrateCommand, TakesTheFiguresOfADataSheet) {
   EXPECT_NEAR(Json::parse(three.out).at("figures").at("z").at("arw_deg_per_sqrt_h").get<double>(), 3.0, 1e-9);
 }
 
+// 0.005 sqrt(200 / 2) = 0.05 deg/s without the filter, of which sqrt(0.42 pi / sqrt(8)) = 0.683 is left.
+TEST_F(CalibrateCommand, TakesTheLowPassOfADataSheet) {
+  const Result result = calibrate(
+      {"--noise-density", "0.005", "--bandwidth", "42", "--rate", "200", "--sensor", "mpu", "-o", "-"});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  const Json made = Json::parse(result.out);
+  EXPECT_NEAR(made.at("figures").at("z").at("std_dps").get<double>(), 0.0342, 0.0007);
+  EXPECT_THAT(result.out, HasSubstr("bandwidth 42 Hz"));
+  const Result alone = calibrate({recording(60, 0), "--bandwidth", "42", "-o", "-"});
+  EXPECT_EQ(alone.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(alone.err, HasSubstr("--bandwidth is for --noise-density or --arw"));
+}
+
 TEST_F(CalibrateCommand, WritesOverNoRecording) {
   const std::string input = recording(60, 0);
   const std::string before = read_file("in.csv");

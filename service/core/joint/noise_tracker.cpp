@@ -43,23 +43,45 @@ constexpr double kLowestLevel = 1e-3;
 constexpr double kTooQuiet = 0.8;
 constexpr double kTooLoud = 1.4;
 
+/// A believed spectrum falls below this part of its second greatest band, as the greatest may be that of a line, where a sensor's low-pass stops:
+/// what is left there, no model says to a quarter.
+constexpr double kStopped = 0.1;
+
+/// The bands that tell something, quietest first.
+class Sorted {
+ public:
+  Sorted(const BandPower& power, const BandPower& believed) noexcept {
+    BandPower greatest = believed;
+    std::ranges::nth_element(greatest, greatest.begin() + 1, std::greater{});
+    const double least = kStopped * greatest[1];
+    for (std::size_t band = 0; band < kNoiseBands; ++band) {
+      if (believed[band] >= least) power_[count_++] = power[band];
+    }
+    std::sort(power_.begin(), power_.begin() + static_cast<std::ptrdiff_t>(count_));
+  }
+  [[nodiscard]] std::span<const double> all() const noexcept { return std::span(power_).first(count_); }
+
+ private:
+  BandPower power_{};
+  std::size_t count_ = 0;
+};
+
 /// Level of noise whose colour is known.
-double level_of(BandPower sorted) noexcept {
-  std::ranges::sort(sorted);
+double level_of(std::span<const double> sorted) noexcept {
   const auto motion = std::ranges::find_if(sorted, [](double ratio) { return ratio > kMotion; });
   const std::span<const double> quiet{sorted.begin(), motion};
   if (quiet.empty()) return 1.0;
   const double all = mean(quiet);
   if (all <= 1.0) return std::max(all, kLowestLevel);
-  if (2 * quiet.size() <= kNoiseBands) return 1.0;
-  const double quietest = mean(quiet.first(kQuietest));
+  if (2 * quiet.size() <= sorted.size()) return 1.0;
+  const double quietest = mean(quiet.first(std::min(kQuietest, quiet.size())));
   return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest, kQuietestPower)));
 }
 
 /// The same, where bands were as quiet as `bounded` within memory: that takes from a level above 1, and does not make one below it.
-double level_of(const BandPower& ratio, const BandPower& bounded) noexcept {
-  const double level = level_of(ratio);
-  return level <= 1.0 ? level : std::clamp(level_of(bounded), 1.0, level);
+double level_of(const Sorted& ratio, const Sorted& bounded) noexcept {
+  const double level = level_of(ratio.all());
+  return level <= 1.0 ? level : std::clamp(level_of(bounded.all()), 1.0, level);
 }
 
 std::span<const double> bins_of(std::span<const double> spectrum, std::size_t band) noexcept {
@@ -114,29 +136,33 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   find_far_level(bounded);
   rose_ = belief != NoiseBelief::kNothing && weight_ >= 1.0 && are_alike_above(ratio_, kMotion);
   if (belief == NoiseBelief::kColour)
-    shape_ = {.level = far_level_ > 0.0 ? far_level_ : level_of(ratio_, bounded)};
+    shape_ = {.level = far_level_ > 0.0
+                           ? far_level_
+                           : level_of(Sorted(ratio_, believed_power_), Sorted(bounded, believed_power_))};
   else if (far_level_ == 0.0)
     shape_ = likely_shape(bounded, belief == NoiseBelief::kLevel);
 }
 
 /// Whether all bands are further above what is believed than this, the most of them alike.
-bool NoiseTracker::are_alike_above(BandPower power, double least) noexcept {
-  std::ranges::sort(power);
-  return power.front() > least && power[kNoiseBands - 2] <= kAlike * power[1];
+bool NoiseTracker::are_alike_above(const BandPower& power, double least) const noexcept {
+  const Sorted sorted(power, believed_power_);
+  const auto all = sorted.all();
+  return all.size() >= kAlikeBands && all.front() > least && all[all.size() - 2] <= kAlike * all[1];
 }
 
 /// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that. It counts for as
 /// long as none is. Too high: motion only adds.
 void NoiseTracker::find_far_level(const BandPower& power) noexcept {
-  BandPower sorted = power;
-  std::ranges::sort(sorted);
+  const Sorted ordered(power, believed_power_);
+  const auto sorted = ordered.all();
+  const bool few = sorted.size() <= kAlikeBands;
   // The quietest may be that of a line which is believed to be there.
   const bool outlier =
-      sorted[kAlikeBands - 1] > kAlike * sorted[0] && sorted[kAlikeBands] <= kAlike * sorted[1];
-  const std::span<const double> quietest = std::span(sorted).subspan(outlier ? 1 : 0, kAlikeBands);
+      !few && sorted[kAlikeBands - 1] > kAlike * sorted[0] && sorted[kAlikeBands] <= kAlike * sorted[1];
+  const auto quietest = sorted.subspan(outlier ? 1 : 0, std::min(kAlikeBands, sorted.size()));
   const double quiet = mean(quietest);
   const bool below = quiet < kFarBelow;
-  const bool above = sorted.front() > kMotion;
+  const bool above = !few && sorted.front() > kMotion;
   if (belief_in(believed_) == NoiseBelief::kNothing || weight_ < 1.0 || (!below && !above)) {
     far_level_ = 0.0;
     return;

@@ -49,7 +49,7 @@ class NoiseTracker {
   [[nodiscard]] bool disagrees() const noexcept;
 
  private:
-  [[nodiscard]] static bool are_alike_above(BandPower power, double least) noexcept;
+  [[nodiscard]] bool are_alike_above(const BandPower& power, double least) const noexcept;
   void find_far_level(const BandPower& power) noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
 

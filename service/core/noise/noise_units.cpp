@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/noise/noise_fit.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -22,6 +24,18 @@ double angle_random_walk(const NoiseModel& model, double sample_rate_hz) noexcep
 
 NoiseModel from_noise_density(double density, double sample_rate_hz) noexcept {
   return white_noise(density * density * 0.5 * sample_rate_hz);
+}
+
+NoiseModel behind_low_pass(const NoiseModel& white, double bandwidth_hz, double sample_rate_hz) noexcept {
+  constexpr double kLeft = 3e-4;
+  if (bandwidth_hz >= 0.5 * sample_rate_hz) return white;
+  NoiseSpectrum power{};
+  for (std::size_t k = 0; k < power.size(); ++k) {
+    const double frequency_hz = sample_rate_hz * static_cast<double>(k) / static_cast<double>(kNoiseSegment);
+    const double square = (frequency_hz / bandwidth_hz) * (frequency_hz / bandwidth_hz);
+    power[k] = white.white_variance * (1.0 / (1.0 + square * square) + kLeft);
+  }
+  return fit_noise(power).value_or(white);
 }
 
 NoiseModel from_angle_random_walk(double random_walk, double sample_rate_hz) noexcept {

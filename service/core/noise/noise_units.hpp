@@ -23,6 +23,14 @@ namespace gyrod::core {
 /// White noise of angle random walk N at a sample rate. @pre both above 0
 [[nodiscard]] NoiseModel from_angle_random_walk(double random_walk, double sample_rate_hz) noexcept;
 
+/// White noise behind a sensor's own low-pass of second order, as it is where the filter stops nothing:
+///   S(f) = white (1 / (1 + (f / bandwidth)^4) + 0.0003),   fitted by fit_noise().
+/// Filters differ where they stop, and nobody knows what is left there: this is a guess, good enough to tell noise from motion where it passes.
+/// @param bandwidth_hz at -3 dB  @return `white` itself where the bandwidth is at least half the rate
+/// @pre white.white_variance, both frequencies above 0
+[[nodiscard]] NoiseModel behind_low_pass(const NoiseModel& white, double bandwidth_hz,
+                                         double sample_rate_hz) noexcept;
+
 /// Correlation of neighbouring samples, -1..1; 0 for white noise and for a model that is not usable.
 [[nodiscard]] double lag_one_correlation(const NoiseModel& model) noexcept;
 

@@ -161,6 +161,23 @@ TEST(NoiseTracker, SaysAtOnceThatAllBandsHaveBecomeLouder) {
   EXPECT_FALSE(tracker.disagrees()) << "what shakes leaves some bands as they were";
 }
 
+// Where a sensor's low-pass stops, a model of it is off by any factor; that says nothing of the level.
+TEST(NoiseTracker, JudgesNothingWhereALowPassStops) {
+  Spectrum believed(kBins, 1.0);
+  Spectrum seen(kBins, 1.0);
+  for (std::size_t k = kBins / 2; k < kBins; ++k) {
+    believed[k] = 0.02;
+    seen[k] = 0.002;
+  }
+  NoiseTracker tracker;
+  for (int i = 0; i < 96; ++i) tracker.observe(seen, believed, coloured(), kShare, kShare);
+  EXPECT_NEAR(tracker.level(), 1.0, 0.01);
+  EXPECT_FALSE(tracker.disagrees());
+  for (double& power : seen) power *= 0.25;
+  for (int i = 0; i < 32 * 30; ++i) tracker.observe(seen, believed, coloured(), kShare, kShare);
+  EXPECT_NEAR(tracker.level(), 0.25, 0.01) << "where it passes, the level is judged as ever";
+}
+
 // Of which nothing is known, and which has become twice as strong: 4 / 1.15 = 1.03^42.
 TEST(NoiseTracker, BelievesUnknownNoiseThatDoublesWithinFortyWindows) {
   NoiseTracker tracker;

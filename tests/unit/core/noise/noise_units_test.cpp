@@ -1,6 +1,7 @@
 #include "core/noise/noise_units.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,22 @@ TEST(NoiseUnits, GoBothWays) {
 TEST(NoiseUnits, TakeTheRandomWalkFromTheSlowEnd) {
   EXPECT_NEAR(angle_random_walk(coloured(), 100.0), std::sqrt(0.13), 1e-12);
   EXPECT_NEAR(noise_density(coloured(), 100.0), std::sqrt(0.10), 1e-12);
+}
+
+// Half the power at the bandwidth, 1/17 at twice of it; the density where it passes, and over all what a filter of second order lets
+// through, pi / (2 sqrt(2)) of the bandwidth.
+TEST(NoiseUnits, FallBehindALowPass) {
+  const NoiseModel white = from_noise_density(0.005, 200.0);
+  const NoiseModel passed = behind_low_pass(white, 42.0, 200.0);
+  const auto part = [&](double hz) {
+    return noise_spectrum(passed, 2.0 * std::numbers::pi * hz / 200.0) / white.white_variance;
+  };
+  EXPECT_NEAR(part(5.0), 1.0, 0.15);
+  EXPECT_NEAR(part(42.0), 0.5, 0.15);
+  EXPECT_NEAR(part(84.0), 1.0 / 17.0, 0.05);
+  EXPECT_NEAR(noise_variance(passed) / white.white_variance, 42.0 / 100.0 * std::numbers::pi / std::sqrt(8.0),
+              0.03);
+  EXPECT_EQ(behind_low_pass(white, 100.0, 200.0), white);
 }
 
 TEST(NoiseUnits, GiveTheCorrelationOfNeighbours) {
