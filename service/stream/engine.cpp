@@ -71,6 +71,7 @@ void Engine::Impl::submit(Channel& channel, WindowJob job) {
   if (channel.learner) job.at_rest = channel.learner->at_rest();
   if (channel.fast_loop) {
     job.model_fit = channel.fast_loop->model_fit();
+    job.output_variance = channel.fast_loop->take_mean_variance();
     if (channel.fast_loop->misfit()) job.flags |= static_cast<std::uint32_t>(SampleFlag::kModelMisfit);
     if (channel.models_late) job.flags |= static_cast<std::uint32_t>(SampleFlag::kHopWidened);
   }

@@ -1,9 +1,11 @@
 /// The fast loop of a model method: one filter an axis, and the hand-over of models by sample number.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -54,9 +56,11 @@ class FastLoop {
       const Estimates estimates = filters_[axis]->step(rate_radps[axis]);
       answer.realtime[axis] = estimates.realtime;
       answer.denoised[axis] = estimates.denoised;
+      claimed_[axis] += estimates.denoised.variance;
       model_fit_[axis] = filters_[axis]->model_fit();
       misfit_ = misfit_ || model_fit_[axis].misfit;
     }
+    ++steps_;
     return answer;
   }
 
@@ -78,6 +82,8 @@ class FastLoop {
     for (auto& filter : filters_) filter->reset();
     origin_ = {};
     model_fit_ = {};
+    claimed_ = {};
+    steps_ = 0;
     misfit_ = false;
     misfits_told_ = 0;
   }
@@ -91,6 +97,16 @@ class FastLoop {
     std::uint64_t misfits = 0;
     for (const ModelFit& fit : model_fit_) misfits += fit.misfits;
     return misfits - std::exchange(misfits_told_, misfits);
+  }
+
+  /// Mean variance of the denoised estimates, (rad/s)^2, since the last call; 0 where there was no step.
+  [[nodiscard]] std::array<double, kAxes> take_mean_variance() noexcept {
+    std::array<double, kAxes> mean{};
+    for (std::size_t axis = 0; axis < kAxes && steps_ > 0; ++axis)
+      mean[axis] = std::min(claimed_[axis] / static_cast<double>(steps_), std::numeric_limits<double>::max());
+    claimed_ = {};
+    steps_ = 0;
+    return mean;
   }
 
   /// Of the models in use; epoch 0 where there are none yet.
@@ -108,6 +124,8 @@ class FastLoop {
   std::array<std::unique_ptr<Model>, kAxes> models_;
   ModelOrigin origin_;
   std::array<ModelFit, kAxes> model_fit_;
+  std::array<double, kAxes> claimed_{};  ///< sum of variances, over steps_
+  std::uint64_t steps_ = 0;
   bool misfit_ = false;
   std::uint64_t misfits_told_ = 0;
 };

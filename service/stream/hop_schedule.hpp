@@ -30,6 +30,8 @@ struct WindowJob {
   ChannelNoise noise;
   std::optional<bool> at_rest;                           ///< none where nobody looks
   std::optional<std::array<ModelFit, kAxes>> model_fit;  ///< model methods only
+  /// Of the denoised estimates since the window before, mean, (rad/s)^2; model methods only.
+  std::optional<std::array<double, kAxes>> output_variance;
 };
 
 /// Cuts a channel's positions into windows. A window of at most `window` positions ends every `hop` positions

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 namespace gyrod::stream {
@@ -112,6 +113,8 @@ void Workbench::describe(Channel& channel, const WindowJob& job) noexcept {
   report_.model_fit = job.model_fit;
   report_.at_rest = job.at_rest;
   report_.flags = job.flags;
+  for (std::size_t axis = 0; job.output_variance && axis < kAxes; ++axis)
+    report_.axis[axis].output_noise = std::sqrt((*job.output_variance)[axis]);
   for (auto& sample : samples_) {
     sample.model_epoch = report_.model_epoch;
     sample.noise_source = report_.noise_source;

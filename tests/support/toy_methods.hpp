@@ -42,7 +42,7 @@ class WindowMarker final : public stream::WindowMethod {
 
 /// Model method: the model is the last sample of its window; the filter answers x[t - lag] + 1000 * model, and in real time
 /// x[t] + 1000 * model, with the model's square plus one as variance. With samples that count up, the answer tells which window's model
-/// was in use. A rate below kMisfit does not fit the model. The report's output_noise counts the windows that the model remembers,
+/// was in use. A rate below kMisfit does not fit the model. The report's modes count the windows that the model remembers,
 /// its mean is what the other axes' models say of the noise: their last samples.
 inline constexpr double kMisfit = -1e5;
 
@@ -50,7 +50,7 @@ struct LastSampleModel final : stream::Model {
   void reset() noexcept override { *this = {}; }
   [[nodiscard]] double noise_variance() const noexcept override { return last; }
   double last = 0.0;
-  double windows = 0.0;  ///< fitted since it was made or reset
+  std::size_t windows = 0;  ///< fitted since it was made or reset
 };
 
 class LastSampleFilter final : public stream::SampleFilter {
@@ -97,8 +97,7 @@ class LastSampleMethod final : public stream::ModelMethod {
     report.noise_floor = window.samples.back();
     auto& state = static_cast<LastSampleModel&>(model);
     state.last = window.samples.back();
-    state.windows += 1.0;
-    report.output_noise = state.windows;
+    report.modes = ++state.windows;
     report.mean = window.others_noise;
   }
 

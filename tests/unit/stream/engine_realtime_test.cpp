@@ -160,6 +160,19 @@ TEST(EngineWithModels, ReportsTheFitAsOfTheWindowsEnd) {
   EXPECT_FALSE(flagged(reports[2]));
 }
 
+// The toy claims 1 + last^2 for a sample, last the model's: 0 until sample 64, whose model is that of the window that ended with sample 31.
+TEST(EngineWithModels, ReportsTheNoiseThatItsSamplesClaim) {
+  RecordingSink sink;
+  Engine engine(small_options(2), testing::last_sample_method(), sink);
+  engine.push("imu", counting_samples(128));
+  engine.wait_idle();
+  const auto reports = sink.reports("imu");
+  ASSERT_EQ(reports.size(), 4U);
+  EXPECT_EQ(reports[1].axis[0].output_noise, 1.0);
+  EXPECT_NEAR(reports[2].axis[0].output_noise, std::sqrt(1.0 + 31.0 * 31.0), 1e-12);
+  EXPECT_NEAR(reports[3].axis[0].output_noise, std::sqrt(1.0 + 63.0 * 63.0), 1e-12);
+}
+
 TEST(Engine, ReportsNoFitOfAWindowMethodAndItsOutputNoiseAsEverySamplesDeviation) {
   RecordingSink sink;
   Engine engine(small_options(), window_marker(), sink);
