@@ -1,5 +1,6 @@
 #include "stream/joint_method.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,6 +17,14 @@ constexpr double kMostOfQuietest = 2.0;
 /// Beyond these the innovations are not those of the model: 0.6 to 0.8 is what a level 20 % too high looks like.
 constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;
+/// And within these they are again, 128 samples later at the earliest. The mean takes about a second from one limit to the other where the model
+/// holds, less after a knock; at one limit for both, its noise crossed that again and again. Source: docs/method.md, "When the noise is not as
+/// believed".
+constexpr double kLeastFitting = 0.8;
+constexpr double kLargestFitting = 1.6;
+constexpr unsigned kLeastSpell = 128;
+/// The noise tracker has to disagree, or to agree, for so many samples: windows that are short yet, after a start, tell the level to a factor only.
+constexpr unsigned kSteady = 512;
 
 /// Rates further apart than this, in parts, are not two estimates of one.
 constexpr double kOtherRate = 0.1;
@@ -76,7 +85,8 @@ class JointFilter final : public SampleFilter {
   void use(const Model& model) noexcept override {
     const core::JointModel& joint = static_cast<const JointState&>(model).joint;
     bank_.use(joint);
-    wrong_noise_ = joint.noise.disagrees();
+    noise_level_ = joint.noise.level();
+    noise_disagrees_ = joint.noise.disagrees();
     fit_.fallbacks += joint.fallbacks;
   }
 
@@ -92,7 +102,10 @@ class JointFilter final : public SampleFilter {
   void reset() noexcept override {
     bank_.reset();
     fit_ = {};
-    wrong_noise_ = false;
+    noise_level_ = 1.0;
+    noise_disagrees_ = false;
+    unlikely_ = 0;
+    otherwise_ = 0;
   }
 
  private:
@@ -101,16 +114,37 @@ class JointFilter final : public SampleFilter {
   }
 
   void judge() noexcept {
-    fit_.normalised_innovation = bank_.normalised_innovation();
-    const bool misfit = wrong_noise_ || fit_.normalised_innovation < kLeastInnovation ||
-                        fit_.normalised_innovation > kLargestInnovation;
+    judge_noise();
+    judge_innovation();
+    const bool misfit = fit_.wrong_noise || unlikely_ > 0;
     if (misfit && !fit_.misfit) ++fit_.misfits;
     fit_.misfit = misfit;
   }
 
+  void judge_innovation() noexcept {
+    const double mean = bank_.normalised_innovation();
+    fit_.normalised_innovation = mean;
+    const bool fits = unlikely_ == 0
+                          ? mean >= kLeastInnovation && mean <= kLargestInnovation
+                          : unlikely_ >= kLeastSpell && mean >= kLeastFitting && mean <= kLargestFitting;
+    unlikely_ = fits ? 0 : std::min(unlikely_ + 1, kLeastSpell);
+  }
+
+  void judge_noise() noexcept {
+    otherwise_ = noise_disagrees_ == fit_.wrong_noise ? 0 : otherwise_ + 1;
+    if (otherwise_ >= kSteady) {
+      fit_.wrong_noise = noise_disagrees_;
+      otherwise_ = 0;
+    }
+    fit_.noise_ratio = fit_.wrong_noise ? std::sqrt(noise_level_) : 1.0;
+  }
+
   core::KalmanBank bank_;
   ModelFit fit_;
-  bool wrong_noise_ = false;
+  double noise_level_ = 1.0;  ///< power, in parts of the believed one
+  bool noise_disagrees_ = false;
+  unsigned unlikely_ = 0;   ///< samples that the innovations have been so, kLeastSpell at most
+  unsigned otherwise_ = 0;  ///< samples in a row that it is not what fit_.wrong_noise says
 };
 
 }  // namespace

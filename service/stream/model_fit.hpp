@@ -10,12 +10,18 @@ namespace gyrod::stream {
 struct ModelFit {
   /// Mean of nu^2 / S over about the last second or seconds. 1 where nothing is known.
   double normalised_innovation = 1.0;
-  /// The model does not explain the input: the published standard deviation is not to be trusted.
+  /// The model does not explain the input: the published standard deviation is not to be trusted. Has hysteresis; a function of the samples alone.
   bool misfit = false;
   /// Times `misfit` was entered.
   std::uint64_t misfits = 0;
   /// Parts of a model (of all models used) that could not be made from their window and stayed as they were before.
   std::uint64_t fallbacks = 0;
+
+  /// The noise is not as strong as it is believed to be, and has not been for some time: a calibration is of another sensor, or old. `misfit` with
+  /// it.
+  bool wrong_noise = false;
+  /// Where it is not: its standard deviation, as the models find it, in parts of the believed one; else 1.
+  double noise_ratio = 1.0;
 
   friend bool operator==(const ModelFit&, const ModelFit&) = default;
 };
