@@ -111,7 +111,8 @@ void Service::judge() {
   engine_.judge_health();
   engine_.fit_curves();
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-  live_.tick(now.count(), seconds_since_1970(), engine_);
+  for (const auto& news : live_.tick(now.count(), seconds_since_1970(), engine_))
+    spdlog::log(news.trouble ? spdlog::level::warn : spdlog::level::info, news.text);
 }
 
 void Service::hear(monitor::Tone tone, const std::string& line) {

@@ -43,7 +43,7 @@ class EventLog {
   /// Changes of a sensor's axes: one event where all have changed alike, else one an axis.
   void add_health(double time_s, std::string_view sensor, const stream::SensorHealth& before,
                   const stream::SensorHealth& now);
-  /// Of the daemon, or, with a sensor, of what the daemon did with it.
+  /// Of the daemon, or, with a sensor, of what the daemon did with it or makes of it.
   void add(double time_s, std::string_view sensor, std::string text);
 
   struct Page {

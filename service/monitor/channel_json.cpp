@@ -101,7 +101,9 @@ Json fit_of(const stream::NoiseReport& report, std::size_t axis) {
   return {{"normalised_innovation", fit.normalised_innovation},
           {"misfit", fit.misfit},
           {"misfits", fit.misfits},
-          {"fallbacks", fit.fallbacks}};
+          {"fallbacks", fit.fallbacks},
+          {"wrong_noise", fit.wrong_noise},
+          {"noise_ratio", fit.noise_ratio}};
 }
 
 Json axis_json(const stream::ChannelSnapshot& sensor, std::size_t axis) {

@@ -41,7 +41,12 @@ Value normalised_innovation(const ChannelSnapshot& sensor, std::size_t axis) {
   return has_report(sensor) && fit ? Value((*fit)[axis].normalised_innovation) : std::nullopt;
 }
 
-constexpr std::array<SensorMetric, 27> kSensorMetrics = {{
+Value model_misfit(const ChannelSnapshot& sensor, std::size_t axis) {
+  const auto& fit = sensor.last_report.model_fit;
+  return has_report(sensor) && fit ? Value((*fit)[axis].misfit ? 1.0 : 0.0) : std::nullopt;
+}
+
+constexpr std::array<SensorMetric, 28> kSensorMetrics = {{
     {"gyrod_sensor_samples_received_total", "Samples of the sensor that arrived.", kCounter, false,
      [](const ChannelSnapshot& s, std::size_t) { return number(s.counts.received); }},
     {"gyrod_sensor_samples_published_total", "Samples of the sensor released.", kCounter, false,
@@ -123,6 +128,9 @@ constexpr std::array<SensorMetric, 27> kSensorMetrics = {{
     {"gyrod_axis_normalised_innovation",
      "Mean square of the model's prediction errors over what the model says; 1 where it holds.", kGauge, true,
      normalised_innovation},
+    {"gyrod_axis_model_misfit",
+     "1 where the model of the axis did not explain the input at the last window's end.", kGauge, true,
+     model_misfit},
 }};
 
 }  // namespace

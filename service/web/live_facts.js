@@ -25,8 +25,9 @@ const gyrodFacts = (() => {
 
   function fit(axis) {
     if (!axis.fit) return "not known: this method has no model of the whole window";
-    const { normalised_innovation: size, misfit, misfits, fallbacks } = axis.fit;
-    return `innovation ${number(size, 3)} of what the model expects${misfit ? ", does not fit now" : ""}; ${units.count(misfits)} misfits, ${units.count(fallbacks)} fallbacks`;
+    const { normalised_innovation: size, misfit, misfits, fallbacks, wrong_noise: wrong, noise_ratio: ratio } = axis.fit;
+    const trouble = wrong ? `, does not fit now: ${number(ratio, 2)} times the noise that is believed` : misfit ? ", does not fit now" : "";
+    return `innovation ${number(size, 3)} of what the model expects${trouble}; ${units.count(misfits)} misfits, ${units.count(fallbacks)} fallbacks`;
   }
 
   function models(channel, index) {

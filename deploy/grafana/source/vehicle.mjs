@@ -135,6 +135,13 @@ const noise = [
     targets: [query(`gyrod_axis_normalised_innovation${sensor}`, axis)],
   }),
   chart({
+    title: "Model does not fit",
+    description: "1: the model does not explain the input, or the noise is not what it is believed to be. GyroModelMisfit tells after ten minutes.",
+    from: 0,
+    to: 1,
+    targets: [query(`gyrod_axis_model_misfit${sensor}`, axis)],
+  }),
+  chart({
     title: "Strongest tone",
     description: "Periodic disturbance in the model: an engine, a fan. None is good.",
     unit: "hertz",

@@ -74,6 +74,7 @@ inline stream::ChannelSnapshot busy_sensor(std::string name) {
     sensor.coefficients[axis][core::NoiseTerm::kAngleRandomWalk] = {7e-4 * scale, 1e-6, true};
     sensor.coefficients[axis][core::NoiseTerm::kBiasInstability] = {4e-5 * scale, 1e-6, true};
     (*report.model_fit)[axis].normalised_innovation = 1.5 * scale;
+    (*report.model_fit)[axis].misfit = axis == 1;
   }
   return sensor;
 }

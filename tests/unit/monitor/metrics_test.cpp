@@ -165,6 +165,8 @@ TEST(Metrics, FiguresOfASensorAndItsAxesAreThoseOfItsLastReport) {
   EXPECT_EQ(value_of(families, "gyrod_sensor_state", sensor), 2.0);
   EXPECT_EQ(value_of(families, "gyrod_sensor_silences_total", sensor), 4.0);
   EXPECT_EQ(value_of(families, "gyrod_axis_normalised_innovation", y), 3.0);
+  EXPECT_EQ(value_of(families, "gyrod_axis_model_misfit", y), 1.0);
+  EXPECT_EQ(value_of(families, "gyrod_axis_model_misfit", {{"sensor", "imu_front"}, {"axis", "x"}}), 0.0);
 }
 
 TEST(Metrics, HealthAndWhatIsKnownOfTheNoiseAtRest) {
@@ -201,8 +203,8 @@ TEST(Metrics, AWindowMethodHasNoModelToJudgeAndWhereNobodyLooksNoRest) {
   shown.channels[0].last_report.model_fit.reset();
   shown.channels[0].last_report.at_rest.reset();
   const auto families = families_of(shown);
-  EXPECT_EQ(value_of(families, "gyrod_axis_normalised_innovation", {{"sensor", "imu_front"}, {"axis", "y"}}),
-            std::nullopt);
+  for (const char* const name : {"gyrod_axis_normalised_innovation", "gyrod_axis_model_misfit"})
+    EXPECT_EQ(value_of(families, name, {{"sensor", "imu_front"}, {"axis", "y"}}), std::nullopt) << name;
   EXPECT_EQ(value_of(families, "gyrod_sensor_at_rest", {{"sensor", "imu_front"}}), std::nullopt);
   shown.channels[0].last_report.at_rest = false;
   EXPECT_EQ(value_of(families_of(shown), "gyrod_sensor_at_rest", {{"sensor", "imu_front"}}), 0.0);
@@ -231,7 +233,7 @@ TEST(Metrics, ASensorHasAsManySeriesAsTheManualSays) {
       if (label != one.labels.end() && label->second == "imu_front") ++series;
     }
   }
-  EXPECT_EQ(series, 67U);  // MonitorOptions::max_channel_series, docs/configuration.md
+  EXPECT_EQ(series, 70U);  // MonitorOptions::max_channel_series, docs/configuration.md
 }
 
 TEST(Metrics, SensorsBeyondTheCapAreCountedInstead) {
