@@ -1,5 +1,6 @@
 #include "app/noise_sources.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -9,6 +10,9 @@
 
 namespace gyrod::app {
 namespace {
+
+/// Entries that are copied while the thread that pushes may wait: 0.2 MB.
+constexpr std::size_t kCopiedAtOnce = 64;
 
 std::vector<settings::NoiseCalibration> calibrations_of(const settings::NoiseSettings& settings) {
   const bool wanted = settings.source == settings::NoiseSource::kAuto ||
@@ -50,22 +54,31 @@ stream::StandstillOptions NoiseSources::options_of(std::string_view sensor, doub
 std::unique_ptr<stream::NoiseLearner> NoiseSources::learner_of(std::string_view sensor,
                                                                double sample_rate_hz) {
   stream::StandstillOptions options = options_of(sensor, sample_rate_hz);
-  stream::RememberedNoise* slot = nullptr;
-  {
-    const std::lock_guard lock(mutex_);
-    slot = &learned_.try_emplace(std::string(sensor)).first->second;
-  }
-  options.on_learned = [this, slot](const stream::RememberedNoise& state) {
-    const std::lock_guard lock(mutex_);
-    *slot = state;
-    ++revision_;
-  };
+  settings::NoiseStates one;
+  one.try_emplace(std::string(sensor));
+  // Shared, as what a std::function holds has to be copyable.
+  const auto place = std::make_shared<Place>(one.extract(one.begin()));
+  options.on_learned = [this, place](const stream::RememberedNoise& state) { keep(*place, state); };
   return std::make_unique<stream::StandstillNoise>(std::move(options));
 }
 
-settings::NoiseStates NoiseSources::learned() const {
+void NoiseSources::keep(Place& place, const stream::RememberedNoise& state) {
   const std::lock_guard lock(mutex_);
-  return learned_;
+  if (place.state == nullptr) place.state = &learned_.insert(std::move(place.entry)).position->second;
+  *place.state = state;
+  ++revision_;
+}
+
+settings::NoiseStates NoiseSources::learned() const {
+  settings::NoiseStates all;
+  for (bool more = true; more;) {
+    const std::lock_guard lock(mutex_);
+    auto entry = all.empty() ? learned_.begin() : learned_.upper_bound(all.rbegin()->first);
+    for (std::size_t n = 0; n < kCopiedAtOnce && entry != learned_.end(); ++n, ++entry)
+      all.emplace_hint(all.end(), *entry);
+    more = entry != learned_.end();
+  }
+  return all;
 }
 
 settings::NoiseStates remembered_noise(const settings::NoiseSettings& settings) {

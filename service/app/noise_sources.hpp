@@ -28,7 +28,8 @@ class NoiseSources {
   /// Has an engine's channels use this. It has to outlive the engine.
   void attach_to(stream::EngineOptions& options);
 
-  /// What was learned by now or is remembered, of all sensors. Any thread.
+  /// What was learned by now or is remembered, of all sensors of which something was; not all of one moment, as the thread that learns is
+  /// let in between. Any thread.
   [[nodiscard]] settings::NoiseStates learned() const;
   /// Rises with every change of learned(). Any thread.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
@@ -37,16 +38,23 @@ class NoiseSources {
   [[nodiscard]] std::size_t remembered() const noexcept { return remembered_; }
 
  private:
+  /// Of a channel, made when it opens, so that learning allocates nothing: the sensor's entry until something is learned of it. Goes with
+  /// the channel.
+  struct Place {
+    settings::NoiseStates::node_type entry;    ///< not in learned_ yet, if ever
+    stream::RememberedNoise* state = nullptr;  ///< in learned_
+  };
+
   [[nodiscard]] stream::StandstillOptions options_of(std::string_view sensor, double sample_rate_hz) const;
   [[nodiscard]] std::unique_ptr<stream::NoiseLearner> learner_of(std::string_view sensor,
                                                                  double sample_rate_hz);
+  void keep(Place& place, const stream::RememberedNoise& state);
 
   settings::NoiseSource source_;
   std::vector<settings::NoiseCalibration> calibrations_;
   std::size_t remembered_;  ///< sensors, of an earlier run
   mutable std::mutex mutex_;
-  settings::NoiseStates
-      learned_;  ///< an entry for every channel from its opening on: later changes allocate nothing
+  settings::NoiseStates learned_;  ///< only grows, by sensors of which something was learned or is remembered
   std::atomic<std::uint64_t> revision_{0};
 };
 
