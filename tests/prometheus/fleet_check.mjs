@@ -27,8 +27,8 @@ const vehicles = {
   sensors: quick,
   network: quick,
   rebooting: quick,
-  // The level of each window, and a gyrod that is not to say noisy itself.
-  ageing: { ...quick, noise: { source: "imf1" }, health: { noisy_ratio: 10 } },
+  // The level of each window, as method joint follows one over minutes of the sensor's own clock; and a gyrod that is not to say noisy itself.
+  ageing: { ...quick, denoise: { ...quick.denoise, method: "paper" }, noise: { source: "imf1" }, health: { noisy_ratio: 10 } },
   overloaded: { denoise: { method: "paper", window_samples: 4096 }, limits: { max_delay_s: 0.01 } },
   off: {},
   parked: { denoise: { window_samples: 512, hop_samples: 128 } },
