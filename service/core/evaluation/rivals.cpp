@@ -209,7 +209,8 @@ AlphaBeta alpha_beta_of(double tracking_index) noexcept {
 std::vector<double> rival_output(const RivalSetting& setting, std::span<const double> x) {
   if (x.empty()) return {};
   if (setting.rival == Rival::kBiasRemoved) return less(setting.parameter, x);
-  if (setting.rival == Rival::kRaw || setting.parameter == pass_through_of(setting.rival)) return {x.begin(), x.end()};
+  if (setting.rival == Rival::kRaw || setting.parameter == pass_through_of(setting.rival))
+    return {x.begin(), x.end()};
   switch (setting.rival) {
     case Rival::kExponential:
       return exponential(setting.parameter, x);
