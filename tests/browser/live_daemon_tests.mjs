@@ -26,7 +26,7 @@ export function loudRecording(end = kEnd) {
 }
 
 const wordOf = (page, sensor) => rowOf(page, sensor).locator(".word");
-const numbersOf = (text) => text.replace(/[\u202f ](?=\d{3})/g, "").match(/\d+(\.\d+)?/g)?.map(Number) ?? [];
+const numbersOf = (text) => text.replace(/[\u202f ](?=\d{3})/g, "").replace(/−/g, "-").match(/-?\d+(\.\d+)?/g)?.map(Number) ?? [];
 const near = (shown, value) => Math.abs(shown - value) <= 0.006 * Math.abs(value); // three digits
 
 async function becomes(page, sensor, state, tone) {
