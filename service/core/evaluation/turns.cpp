@@ -93,8 +93,8 @@ std::vector<double> turn_truth(const TurnProfile& profile, const TurnOptions& op
   return truth;
 }
 
-TurnTrials::TurnTrials(const Method& method, std::span<const double> noise_dps, const TurnOptions& options)
-    : method_(method), noise_dps_(noise_dps.begin(), noise_dps.end()), options_(options) {
+TurnTrials::TurnTrials(Method method, std::span<const double> noise_dps, const TurnOptions& options)
+    : method_(std::move(method)), noise_dps_(noise_dps.begin(), noise_dps.end()), options_(options) {
   assert(options.repeats >= 1);
   for (std::size_t repeat = 0; repeat < options.repeats; ++repeat) {
     straights_.push_back(method_.run(noise(repeat)).estimate);

@@ -58,7 +58,7 @@ class TurnTrials {
  public:
   /// Runs the method `repeats` times on stretches of the noise, spread evenly over it; noise that is too short is repeated.
   /// @param noise_dps finite; empty: none
-  TurnTrials(const Method& method, std::span<const double> noise_dps, const TurnOptions& options);
+  TurnTrials(Method method, std::span<const double> noise_dps, const TurnOptions& options);
 
   /// Runs it as often on the turn plus the same stretches. @pre the turn has ended when a run does
   [[nodiscard]] TurnResponse take(const TurnProfile& profile) const;

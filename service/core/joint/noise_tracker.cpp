@@ -135,12 +135,13 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   }
   find_far_level(bounded);
   rose_ = belief != NoiseBelief::kNothing && weight_ >= 1.0 && are_alike_above(ratio_, kMotion);
-  if (belief == NoiseBelief::kColour)
+  if (belief == NoiseBelief::kColour) {
     shape_ = {.level = far_level_ > 0.0
                            ? far_level_
                            : level_of(Sorted(ratio_, believed_power_), Sorted(bounded, believed_power_))};
-  else if (far_level_ == 0.0)
+  } else if (far_level_ == 0.0) {
     shape_ = likely_shape(bounded, belief == NoiseBelief::kLevel);
+  }
 }
 
 /// Whether all bands are further above what is believed than this, the most of them alike.
