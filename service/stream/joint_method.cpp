@@ -38,13 +38,14 @@ struct JointState final : Model {
   /// What was learned of the noise is by cycles per sample: it does not hold at another rate.
   void follow_rate(double rate_hz) noexcept {
     if (!(rate_hz > 0.0)) return;
-    if (sample_rate_hz > 0.0 && std::abs(rate_hz - sample_rate_hz) > kOtherRate * sample_rate_hz) {
+    const bool other =
+        sample_rate_hz > 0.0 && std::abs(rate_hz - sample_rate_hz) > kOtherRate * sample_rate_hz;
+    if (other) {
       joint.noise = {};
       joint.line = {};
       joint.noise_variance = 0.0;
-      sample_rate_hz = rate_hz;
     }
-    if (sample_rate_hz == 0.0) sample_rate_hz = rate_hz;
+    if (other || sample_rate_hz == 0.0) sample_rate_hz = rate_hz;
   }
   core::JointModel joint;
   double sample_rate_hz = 0.0;  ///< that the windows so far had; 0 while unknown
@@ -85,7 +86,7 @@ class JointFilter final : public SampleFilter {
   void use(const Model& model) noexcept override {
     const core::JointModel& joint = static_cast<const JointState&>(model).joint;
     bank_.use(joint);
-    noise_level_ = joint.noise.level();
+    noise_level_ = joint.noise.shown_level();
     noise_disagrees_ = joint.noise.disagrees();
     fit_.fallbacks += joint.fallbacks;
   }

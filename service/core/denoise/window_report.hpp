@@ -85,7 +85,8 @@ struct WindowReport {
   std::size_t k = 0;
   /// Standard deviation of the input's white noise, in the input's unit; 0 if unknown.
   double noise_floor = 0.0;
-  /// Estimated standard deviation of the noise left in the output, in the input's unit.
+  /// Estimated standard deviation of the noise left in the output, in the input's unit. Of model methods not the window's: who runs the filter
+  /// fills it in.
   double output_noise = 0.0;
   /// Mean of the window, in the input's unit.
   double mean = 0.0;

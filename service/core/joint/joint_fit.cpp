@@ -90,7 +90,6 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   model.scale = scale_;
   design(model);
   report.modes = full_.size();
-  report.output_noise = std::sqrt(model.member(MemberKind::kFull).error_variance(0));
 }
 
 /// What the noise is taken for: as believed, its level corrected by what the windows so far have shown, and its line where they have shown

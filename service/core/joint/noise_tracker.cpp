@@ -134,7 +134,7 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
     bounded[band] = std::min(ratio_[band], kRise * least_[band]);
   }
   find_far_level(bounded);
-  rose_ = belief != NoiseBelief::kNothing && weight_ >= 1.0 && are_alike_above(ratio_, kMotion);
+  risen_level_ = belief != NoiseBelief::kNothing && weight_ >= 1.0 ? level_alike(ratio_) : 0.0;
   if (belief == NoiseBelief::kColour) {
     shape_ = {.level = far_level_ > 0.0
                            ? far_level_
@@ -144,11 +144,14 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   }
 }
 
-/// Whether all bands are further above what is believed than this, the most of them alike.
-bool NoiseTracker::are_alike_above(const BandPower& power, double least) const noexcept {
+/// Where all bands are further above what is believed than noise is, and alike but for the quietest and the loudest, which may hold a line and
+/// motion: the mean of those; else 0.
+double NoiseTracker::level_alike(const BandPower& power) const noexcept {
   const Sorted sorted(power, believed_power_);
   const auto all = sorted.all();
-  return all.size() >= kAlikeBands && all.front() > least && all[all.size() - 2] <= kAlike * all[1];
+  const bool alike =
+      all.size() >= kAlikeBands && all.front() > kMotion && all[all.size() - 2] <= kAlike * all[1];
+  return alike ? mean(all.subspan(1, all.size() - 2)) : 0.0;
 }
 
 /// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that. It counts for as
@@ -179,8 +182,7 @@ void NoiseTracker::find_far_level(const BandPower& power) noexcept {
 }
 
 bool NoiseTracker::disagrees() const noexcept {
-  return belief_in(believed_) != NoiseBelief::kNothing &&
-         (level() < kTooQuiet || level() > kTooLoud || rose_);
+  return belief_in(believed_) != NoiseBelief::kNothing && (level() < kTooQuiet || shown_level() > kTooLoud);
 }
 
 }  // namespace gyrod::core

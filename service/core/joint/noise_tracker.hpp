@@ -1,6 +1,7 @@
 /// Watches whether a channel's noise is what it is believed to be, and corrects it within bounds.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -47,9 +48,11 @@ class NoiseTracker {
   /// True where the level is so far from 1 that the believed noise is wrong; and where all bands have become louder alike, for as long as that
   /// lasts: noise that has become stronger, or shaking at all frequencies, which is not believed to be noise before it has lasted for minutes.
   [[nodiscard]] bool disagrees() const noexcept;
+  /// level(), or where all bands have become louder alike what these show, if that is more: what is to be told, not what is believed.
+  [[nodiscard]] double shown_level() const noexcept { return std::max(level(), risen_level_); }
 
  private:
-  [[nodiscard]] bool are_alike_above(const BandPower& power, double least) const noexcept;
+  [[nodiscard]] double level_alike(const BandPower& power) const noexcept;
   void find_far_level(const BandPower& power) noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
 
@@ -59,7 +62,8 @@ class NoiseTracker {
   BandPower least_{};       ///< that ratio_ was of late
   double weight_ = 0.0;     ///< of what was observed, in windows
   double far_level_ = 0.0;  ///< of noise far above what is believed; 0 where it is not
-  bool rose_ = false;       ///< all bands are louder than believed, alike
+  double risen_level_ =
+      0.0;  ///< what all bands show that are louder than believed, alike; 0 where they are not
   NoiseShape shape_;
 };
 

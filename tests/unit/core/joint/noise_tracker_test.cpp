@@ -155,7 +155,9 @@ TEST(NoiseTracker, SaysAtOnceThatAllBandsHaveBecomeLouder) {
   watch(tracker, spectrum(10.0), 32);
   EXPECT_LT(tracker.level(), 1.4);
   EXPECT_TRUE(tracker.disagrees());
+  EXPECT_GT(tracker.shown_level(), 3.0) << "what is told: a third of three windows' memory has it";
   watch(tracker, spectrum(1.0), 32 * 8);
+  EXPECT_EQ(tracker.shown_level(), tracker.level());
   EXPECT_FALSE(tracker.disagrees());
   watch(tracker, spectrum(1.0, 9.0, 5), 32 * 8);
   EXPECT_FALSE(tracker.disagrees()) << "what shakes leaves some bands as they were";
