@@ -19,12 +19,12 @@ constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;
 /// And within these they are again, 128 samples later at the earliest. The mean takes about a second from one limit to the other where the model
 /// holds, less after a knock; at one limit for both, its noise crossed that again and again. Source: docs/method.md, "When the noise is not as
-/// believed".
+/// believed". Numbers of samples are those of the design's rate; at higher ones the seconds are the same (core::JointScale::memory()).
 constexpr double kLeastFitting = 0.8;
 constexpr double kLargestFitting = 1.6;
-constexpr unsigned kLeastSpell = 128;
+constexpr double kLeastSpell = 128.0;
 /// The noise tracker has to disagree, or to agree, for so many samples: windows that are short yet, after a start, tell the level to a factor only.
-constexpr unsigned kSteady = 512;
+constexpr double kSteady = 512.0;
 
 /// Rates further apart than this, in parts, are not two estimates of one.
 constexpr double kOtherRate = 0.1;
@@ -88,6 +88,7 @@ class JointFilter final : public SampleFilter {
     bank_.use(joint);
     noise_level_ = joint.noise.shown_level();
     noise_disagrees_ = joint.noise.disagrees();
+    rescale(joint.scale);
     fit_.fallbacks += joint.fallbacks;
   }
 
@@ -107,11 +108,17 @@ class JointFilter final : public SampleFilter {
     noise_disagrees_ = false;
     unlikely_ = 0;
     otherwise_ = 0;
+    rescale({});
   }
 
  private:
   static Estimate estimate(const core::BankEstimate& answer) noexcept {
     return {answer.rate, answer.variance};
+  }
+
+  void rescale(const core::JointScale& scale) noexcept {
+    least_spell_ = static_cast<unsigned>(std::lround(scale.memory(kLeastSpell)));
+    steady_ = static_cast<unsigned>(std::lround(scale.memory(kSteady)));
   }
 
   void judge() noexcept {
@@ -127,13 +134,13 @@ class JointFilter final : public SampleFilter {
     fit_.normalised_innovation = mean;
     const bool fits = unlikely_ == 0
                           ? mean >= kLeastInnovation && mean <= kLargestInnovation
-                          : unlikely_ >= kLeastSpell && mean >= kLeastFitting && mean <= kLargestFitting;
-    unlikely_ = fits ? 0 : std::min(unlikely_ + 1, kLeastSpell);
+                          : unlikely_ >= least_spell_ && mean >= kLeastFitting && mean <= kLargestFitting;
+    unlikely_ = fits ? 0 : std::min(unlikely_ + 1, least_spell_);
   }
 
   void judge_noise() noexcept {
     otherwise_ = noise_disagrees_ == fit_.wrong_noise ? 0 : otherwise_ + 1;
-    if (otherwise_ >= kSteady) {
+    if (otherwise_ >= steady_) {
       fit_.wrong_noise = noise_disagrees_;
       otherwise_ = 0;
     }
@@ -144,7 +151,9 @@ class JointFilter final : public SampleFilter {
   ModelFit fit_;
   double noise_level_ = 1.0;  ///< power, in parts of the believed one
   bool noise_disagrees_ = false;
-  unsigned unlikely_ = 0;   ///< samples that the innovations have been so, kLeastSpell at most
+  unsigned least_spell_ = static_cast<unsigned>(kLeastSpell);  ///< samples
+  unsigned steady_ = static_cast<unsigned>(kSteady);           ///< samples
+  unsigned unlikely_ = 0;   ///< samples that the innovations have been so, least_spell_ at most
   unsigned otherwise_ = 0;  ///< samples in a row that it is not what fit_.wrong_noise says
 };
 

@@ -73,7 +73,10 @@ void KalmanBank::use(const JointModel& model) noexcept {
 }
 
 /// What the model's rate and window make of the options.
-void KalmanBank::scale() noexcept { switching_rate_ = model_.scale.switching_rate(options_.switching_rate); }
+void KalmanBank::scale() noexcept {
+  switching_rate_ = model_.scale.switching_rate(options_.switching_rate);
+  fit_memory_ = model_.scale.memory(kFitMemory);
+}
 
 BankEstimates KalmanBank::step(double sample) noexcept {
   history_[count_ % history_.size()] = sample;
@@ -119,7 +122,7 @@ bool KalmanBank::follow(double sample) noexcept {
   if (!has_member(model_)) return false;
   if (lost) settle_weights();
   weigh(surprise);
-  if (weights > 0.0) normalised_innovation_ += (fit / weights - normalised_innovation_) / kFitMemory;
+  if (weights > 0.0) normalised_innovation_ += (fit / weights - normalised_innovation_) / fit_memory_;
   return true;
 }
 

@@ -53,7 +53,8 @@ class KalmanBank {
   BankEstimates step(double sample) noexcept;
   /// x[t-age] given all up to z[t], 0 <= age <= lag.
   [[nodiscard]] BankEstimate held(std::size_t age) const noexcept;
-  /// Mean of nu^2 / S over about the last kFitMemory samples: 1 where the model explains what comes in.
+  /// Mean of nu^2 / S over about the last kFitMemory samples, at high rates the same seconds (JointScale): 1 where the model explains what comes
+  /// in.
   [[nodiscard]] double normalised_innovation() const noexcept { return normalised_innovation_; }
   /// Forgets everything but what is expected of the noise.
   void reset() noexcept;
@@ -103,8 +104,9 @@ class KalmanBank {
   bool fitted_ = false;  ///< model_ came from a window
   StartLevels start_;    ///< until then
   double switching_rate_ = 0.0;
-  double unit_ = 1.0;        ///< variances of the model in use are in parts of this
-  std::uint64_t count_ = 0;  ///< samples taken
+  double fit_memory_ = kFitMemory;  ///< samples
+  double unit_ = 1.0;               ///< variances of the model in use are in parts of this
+  std::uint64_t count_ = 0;         ///< samples taken
   std::vector<double> history_;
   std::array<Member, kMembers> members_{};
   std::array<double, kMembers> prior_{};

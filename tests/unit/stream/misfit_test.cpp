@@ -1,5 +1,6 @@
 // When method joint says that its models do not fit, and for how long.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -28,14 +29,14 @@ using ::testing::Ge;
 
 constexpr double kStd = 0.006;  // rad/s
 
-/// White noise on all axes at 100 Hz, over turns where it drives.
-std::vector<Sample> white(std::size_t count, bool drives = false) {
+/// White noise on all axes, over turns where it drives.
+std::vector<Sample> white(std::size_t count, bool drives = false, double rate_hz = 100.0) {
   std::vector<Sample> samples(count);
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     const auto noise = testing::white_noise(count, static_cast<unsigned>(axis + 1));
     for (std::size_t n = 0; n < count; ++n) {
       samples[n].sequence = n;
-      samples[n].stamp_ns = static_cast<std::int64_t>(n) * testing::kPeriodNs;
+      samples[n].stamp_ns = std::llround(static_cast<double>(n) * 1e9 / rate_hz);
       samples[n].rate_radps[axis] =
           kStd * noise[n] + (drives ? 0.3 * std::sin(0.01 * static_cast<double>(n)) : 0.0);
     }
@@ -129,15 +130,19 @@ TEST(Misfit, IsNotSaidOfNoiseThatIsBelievedRightly) {
 /// A filter with the model of white noise, and what it says of noise so much stronger than that.
 class MisfitOfAFilter : public ::testing::Test {
  protected:
-  MisfitOfAFilter() {
+  MisfitOfAFilter() { open(100.0); }
+  /// @param believed the noise's variance, in parts of what it is
+  void open(double rate_hz, double believed = 1.0) {
+    filter_ = factory_.filter(16);
     const auto noise = testing::times(testing::white_noise(1024, 1), kStd);
     const auto model = factory_.model();
+    const auto method = factory_.method(1024);
     core::WindowReport report;
-    factory_.method(1024)->fit({.samples = noise,
-                                .sample_rate_hz = 100.0,
-                                .noise_source = NoiseSource::kCalibrated,
-                                .noise = core::white_noise(kStd * kStd)},
-                               *model, report);
+    const WindowInput window{.samples = noise,
+                             .sample_rate_hz = rate_hz,
+                             .noise_source = NoiseSource::kCalibrated,
+                             .noise = core::white_noise(believed * kStd * kStd)};
+    for (int windows = 0; windows < 32; ++windows) method->fit(window, *model, report);
     filter_->use(*model);
   }
   std::vector<bool> after(double variance, std::size_t samples) {
@@ -153,7 +158,7 @@ class MisfitOfAFilter : public ::testing::Test {
   }
 
   ModelMethodFactory factory_ = std::get<ModelMethodFactory>(MethodFactory(joint_method({})));
-  std::unique_ptr<SampleFilter> filter_ = factory_.filter(16);
+  std::unique_ptr<SampleFilter> filter_;
   bool beyond_ = false;
   std::size_t crossings_ = 0;  ///< of the limit from below
 };
@@ -172,6 +177,37 @@ TEST_F(MisfitOfAFilter, IsLeftSecondsAfterWhatDoesNotFitIsOverAtEitherEnd) {
     EXPECT_FALSE(over.back()) << variance;
     // From about 6 to 1.6 by a mean of 256 samples: 256 ln(5 / 0.6) = 543.
     EXPECT_LT(flagged(over), 1000) << variance;
+  }
+}
+
+// At eight times the design's rate the same times are eight times the samples: of the mean, and of the shortest spell.
+TEST_F(MisfitOfAFilter, TakesTheSameSecondsAtAHighRate) {
+  open(8.0 * core::kDesignRateHz);
+  after(6.0, 16000);
+  const auto over = after(1.0, 16000);
+  EXPECT_FALSE(over.back());
+  EXPECT_GT(flagged(over), 8 * 256) << "8 * 256 ln(5 / 0.6) = 4342";
+  EXPECT_LT(flagged(over), 8 * 1000);
+}
+
+TEST_F(MisfitOfAFilter, LastsForTheSameSecondsAtLeastAtAHighRate) {
+  for (const auto& [rate_hz, least] : {std::pair{100.0, 128U}, std::pair{960.0, 8U * 128U}}) {
+    open(rate_hz);
+    unsigned silent = 0;  // the mean falls from 1 to 0.7 in 91 or 730 samples
+    while (silent < 8 * 256 && !after(0.0, 1).back()) ++silent;
+    // It is back at 0.8 of 1.5 in 35 or 274.
+    EXPECT_EQ(flagged(after(1.5, 4 * least)), least - 1) << rate_hz;
+  }
+}
+
+TEST_F(MisfitOfAFilter, AsksForTheSameSecondsOfNoiseThatIsNotAsBelieved) {
+  for (const auto& [rate_hz, expected] : {std::pair{100.0, 512U}, std::pair{960.0, 8U * 512U}}) {
+    open(rate_hz, 9.0);
+    const auto noise = testing::times(testing::white_noise(expected, 3), kStd);
+    unsigned taken = 0;
+    while (taken < expected && !filter_->model_fit().wrong_noise) filter_->step(noise[taken++]);
+    EXPECT_TRUE(filter_->model_fit().wrong_noise) << rate_hz;
+    EXPECT_EQ(taken, expected) << rate_hz;
   }
 }
 
