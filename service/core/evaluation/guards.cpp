@@ -110,7 +110,7 @@ void joint_guards(const Contender& plain, const GuardCase& on, const GuardLimits
   }
   const double share_limit = 0.05 + 3.0 * figures->outlier_standard_error;
   const double roughness_limit = std::max(limits.roughness, figures->roughness_beside);
-  const double step_limit = std::max(limits.worst_step, figures->worst_step_elsewhere);
+  const double step_limit = std::max(limits.worst_step, figures->worst_step_by_chance);
   all.push_back({GuardKind::kJointRoughness, verdict(figures->roughness <= roughness_limit),
                  figures->roughness, std::nullopt, roughness_limit, ""});
   all.push_back({GuardKind::kJointOutliers, verdict(figures->outlier_share <= share_limit),

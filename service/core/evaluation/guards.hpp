@@ -20,7 +20,7 @@ enum class GuardKind : std::uint8_t {
   kScaleFactor,     ///< gain of the record's own motion, means over 1 s; off 1 by 0.005 at most
   kJointRoughness,  ///< rms second difference at joints over that elsewhere; at most 1.2
   kJointOutliers,  ///< share of second differences at joints beyond the elsewhere 95 % quantile; 0.05 + 3 standard errors at most
-  kJointWorstStep,  ///< worst sample-to-sample step at a joint in standard deviations of those elsewhere; 3, or the worst elsewhere
+  kJointWorstStep,  ///< worst sample-to-sample step at a joint in standard deviations of those elsewhere; 3, or what those elsewhere let expect
   kDelay,           ///< shift of greatest correlation with the truth, samples; 0.5 at most
   kVibrationGain,   ///< gain of an added 27 Hz tone (fs/4 at most) of 1 deg/s; off 1 by 0.1 at most
 };

@@ -63,6 +63,43 @@ class Roughness {
   double count_ = 0.0;
 };
 
+/// The largest step at each place of the period.
+class LargestSteps {
+ public:
+  explicit LargestSteps(std::size_t period) : largest_(period) {}
+
+  void add(std::size_t t, double step) {
+    double& largest = largest_[t % largest_.size()];
+    if (std::isfinite(step)) largest = std::max(largest, std::abs(step));
+  }
+
+  [[nodiscard]] double at(std::size_t place) const noexcept { return largest_[place]; }
+
+  /// @return what those at the other places let expect of this one; 0 where nothing moves there
+  [[nodiscard]] double by_chance(std::size_t place) const noexcept {
+    constexpr double kDeviations = 3.0;
+    double count = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;
+    double largest = 0.0;
+    for (std::size_t p = 0; p < largest_.size(); ++p) {
+      if (p == place || !(largest_[p] > 0.0)) continue;
+      const double x = std::log(largest_[p]);
+      count += 1.0;
+      sum += x;
+      squares += x * x;
+      largest = std::max(largest, largest_[p]);
+    }
+    if (count == 0.0) return 0.0;
+    const double mean = sum / count;
+    const double variance = std::max(squares / count - mean * mean, 0.0);
+    return std::max(std::exp(mean + kDeviations * std::sqrt(variance)), largest);
+  }
+
+ private:
+  std::vector<double> largest_;
+};
+
 double quantile_95(std::vector<double> x) {
   const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(x.size() - 1));
   std::ranges::nth_element(x, x.begin() + rank);
@@ -82,11 +119,13 @@ std::optional<JointFigures> joint_figures(const Contender& contender, SampleRang
   Sorted bends;
   Sorted steps;
   Roughness roughness(period);
+  LargestSteps largest(period);
   for (std::size_t t = range.begin + 1; t + 1 < end; ++t) {
     const double bend = e[t - 1] - 2.0 * e[t] + e[t + 1];
     bends.add(is_first(t) || is_first(t + 1), bend);
     roughness.add(t, bend);
     steps.add(is_first(t), e[t] - e[t - 1]);
+    largest.add(t, e[t] - e[t - 1]);
   }
   if (steps.at.size() < kFewest || bends.elsewhere.size() < kFewest || rms(bends.elsewhere) <= 0.0)
     return std::nullopt;
@@ -99,8 +138,9 @@ std::optional<JointFigures> joint_figures(const Contender& contender, SampleRang
   figures.outlier_share = beyond / static_cast<double>(bends.at.size());
   // Two second differences belong to one joint: they are not independent.
   figures.outlier_standard_error = std::sqrt(0.05 * 0.95 / static_cast<double>(steps.at.size()));
-  figures.worst_step = std::ranges::max(steps.at) / rms(steps.elsewhere);
-  figures.worst_step_elsewhere = std::ranges::max(steps.elsewhere) / rms(steps.elsewhere);
+  const double ordinary = rms(steps.elsewhere);
+  figures.worst_step = largest.at(first % period) / ordinary;
+  figures.worst_step_by_chance = largest.by_chance(first % period) / ordinary;
   return figures;
 }
 

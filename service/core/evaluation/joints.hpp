@@ -18,7 +18,9 @@ struct JointFigures {
   double outlier_standard_error =
       0.0;                  ///< of that share where joints are like the rest: sqrt(0.05 0.95 / joints)
   double worst_step = 0.0;  ///< greatest |step| at a joint / standard deviation of the steps elsewhere
-  double worst_step_elsewhere = 0.0;
+  /// What the largest steps at the other places of the period let expect of one more: three standard deviations of their logarithms above the
+  /// mean of these, and at least the largest. (That alone one of 32 places exceeds by chance.)
+  double worst_step_by_chance = 0.0;
 };
 
 /// @return nothing for a contender without joints, for less than ten of them in the range, and where nothing moves elsewhere

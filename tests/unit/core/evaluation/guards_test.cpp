@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/evaluation/joints.hpp"
 #include "core/evaluation/rivals.hpp"
 #include "core/evaluation/statistics.hpp"
 #include "evaluation_support.hpp"
@@ -122,6 +123,22 @@ TEST(Guards, FailOneWithASingleLargeStepAtAJoint) {
     for (std::size_t t = 32 * 200 + 16; t < x.size(); ++t) x[t] += 5.0;
   };
   EXPECT_EQ(guard_of(GuardKind::kJointWorstStep, step).verdict, Verdict::kFail);
+}
+
+// Steps of 1, 2 and 4 beside the joints: their logarithms are ln 2 on average, with a standard deviation of sqrt(2/3) ln 2.
+TEST(Guards, ExpectOfTheLargestStepAtAJointWhatOtherPlacesShow) {
+  Contender contender;
+  contender.joints = JointPattern{4, 0};
+  contender.estimate.assign(401, 0.0);
+  for (std::size_t t = 1; t < contender.estimate.size(); ++t) {
+    const double sign = t / 4 % 2 == 0 ? 1.0 : -1.0;
+    contender.estimate[t] = contender.estimate[t - 1] + sign * std::array{0.5, 1.0, 2.0, 4.0}[t % 4];
+  }
+  const auto figures = joint_figures(contender, {0, 401});
+  ASSERT_TRUE(figures);
+  const double ordinary = std::sqrt((1.0 + 4.0 + 16.0) / 3.0);
+  EXPECT_NEAR(figures->worst_step, 0.5 / ordinary, 1e-9);
+  EXPECT_NEAR(figures->worst_step_by_chance, 2.0 * std::exp2(3.0 * std::sqrt(2.0 / 3.0)) / ordinary, 1e-9);
 }
 
 TEST(Guards, FailOneThatLosesVibration) {
