@@ -98,9 +98,16 @@ Guard scale_factor(const Contender& plain, const GuardCase& on, double limit) {
   return {GuardKind::kScaleFactor, verdict(pass), gain, slope->standard_error, limit, ""};
 }
 
+/// A method may add to the squares of second differences, in parts of what they are elsewhere, limit^2 - 1; where the truth happens to be rougher
+/// at joints, as taps that fall there make it, it is not the method's.
+double added_roughness(const JointFigures& figures, double limit) noexcept {
+  const double own = std::max(figures.roughness_of_truth, 1.0);
+  return std::sqrt(own * own + limit * limit - 1.0);
+}
+
 void joint_guards(const Contender& plain, const GuardCase& on, const GuardLimits& limits,
                   std::vector<Guard>& all) {
-  const auto figures = joint_figures(plain, on.range);
+  const auto figures = joint_figures(plain, on.truth_dps, on.range);
   if (!figures) {
     const std::string reason = plain.joints ? "too few joints among the judged samples" : "it has no joints";
     all.push_back(not_applicable(GuardKind::kJointRoughness, limits.roughness, reason));
@@ -109,7 +116,8 @@ void joint_guards(const Contender& plain, const GuardCase& on, const GuardLimits
     return;
   }
   const double share_limit = 0.05 + 3.0 * figures->outlier_standard_error;
-  const double roughness_limit = std::max(limits.roughness, figures->roughness_beside);
+  const double roughness_limit =
+      std::max(added_roughness(*figures, limits.roughness), figures->roughness_beside);
   const double step_limit = std::max(limits.worst_step, figures->worst_step_by_chance);
   all.push_back({GuardKind::kJointRoughness, verdict(figures->roughness <= roughness_limit),
                  figures->roughness, std::nullopt, roughness_limit, ""});

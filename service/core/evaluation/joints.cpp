@@ -100,6 +100,9 @@ class LargestSteps {
   std::vector<double> largest_;
 };
 
+/// The second difference.
+double bend_of(std::span<const double> x, std::size_t t) noexcept { return x[t - 1] - 2.0 * x[t] + x[t + 1]; }
+
 double quantile_95(std::vector<double> x) {
   const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(x.size() - 1));
   std::ranges::nth_element(x, x.begin() + rank);
@@ -108,22 +111,25 @@ double quantile_95(std::vector<double> x) {
 
 }  // namespace
 
-std::optional<JointFigures> joint_figures(const Contender& contender, SampleRange range) {
+std::optional<JointFigures> joint_figures(const Contender& contender, std::span<const double> truth,
+                                          SampleRange range) {
   if (!contender.joints || contender.joints->period == 0) return std::nullopt;
   const auto [period, first] = *contender.joints;
   const auto is_first = [period = period, first = first](std::size_t t) {
     return t % period == first % period;
   };
   const std::vector<double>& e = contender.estimate;
-  const std::size_t end = std::min(range.end, e.size());
+  const std::size_t end = std::min({range.end, e.size(), truth.size()});
   Sorted bends;
   Sorted steps;
   Roughness roughness(period);
+  Roughness of_truth(period);
   LargestSteps largest(period);
   for (std::size_t t = range.begin + 1; t + 1 < end; ++t) {
-    const double bend = e[t - 1] - 2.0 * e[t] + e[t + 1];
+    const double bend = bend_of(e, t);
     bends.add(is_first(t) || is_first(t + 1), bend);
     roughness.add(t, bend);
+    of_truth.add(t, bend_of(truth, t));
     steps.add(is_first(t), e[t] - e[t - 1]);
     largest.add(t, e[t] - e[t - 1]);
   }
@@ -134,6 +140,7 @@ std::optional<JointFigures> joint_figures(const Contender& contender, SampleRang
       static_cast<double>(std::ranges::count_if(bends.at, [limit](double bend) { return bend > limit; }));
   JointFigures figures;
   figures.roughness = roughness.at(first % period);
+  figures.roughness_of_truth = of_truth.at(first % period);
   figures.roughness_beside = roughness.largest_beside(first % period);
   figures.outlier_share = beyond / static_cast<double>(bends.at.size());
   // Two second differences belong to one joint: they are not independent.

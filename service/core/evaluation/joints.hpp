@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/evaluation/contender.hpp"
 
@@ -13,6 +14,8 @@ struct JointFigures {
   double roughness = 0.0;  ///< rms of the second differences at joints / rms of those elsewhere
   /// The largest such ratio if the joints were two samples or more beside where they are: what a few knocks make of it by chance.
   double roughness_beside = 0.0;
+  double roughness_of_truth =
+      0.0;  ///< the ratio that the truth has at these places; 0 where it is not known or does not move
   double outlier_share =
       0.0;  ///< of the second differences at joints beyond the 95 % quantile of |those elsewhere|
   double outlier_standard_error =
@@ -23,7 +26,9 @@ struct JointFigures {
   double worst_step_by_chance = 0.0;
 };
 
+/// @param truth as long as the estimate; NaN where it is not known
 /// @return nothing for a contender without joints, for less than ten of them in the range, and where nothing moves elsewhere
-[[nodiscard]] std::optional<JointFigures> joint_figures(const Contender& contender, SampleRange range);
+[[nodiscard]] std::optional<JointFigures> joint_figures(const Contender& contender,
+                                                        std::span<const double> truth, SampleRange range);
 
 }  // namespace gyrod::core

@@ -125,6 +125,32 @@ TEST(Guards, FailOneWithASingleLargeStepAtAJoint) {
   EXPECT_EQ(guard_of(GuardKind::kJointWorstStep, step).verdict, Verdict::kFail);
 }
 
+// Taps of the motion that fall where windows meet. Knocks of 20 have squared second differences of 6 * 400 in all.
+TEST(Guards, DoNotTakeTheRoughnessOfTheMotionForTheMethods) {
+  const auto tapped = [](std::vector<double>& x) {
+    for (std::size_t k = 0; k < 12; ++k) x[32 * (30 + 40 * k) + 16] += 20.0;
+  };
+  const auto stepped = [](std::vector<double>& x) {
+    for (std::size_t t = 0; t < x.size(); ++t) x[t] += (t + 16) / 32 % 2 == 0 ? 1.0 : -1.0;
+  };
+  const auto roughness = [](const Drive& drive, const Change& defect) {
+    const Method method = method_with(none);
+    Contender plain = method.run(drive.noisy);
+    plain.estimate = drive.noisy;
+    defect(plain.estimate);
+    const auto all = guards(method, plain, drive.guard_case());
+    return *std::ranges::find(all, GuardKind::kJointRoughness, &Guard::kind);
+  };
+  Drive drive;
+  tapped(drive.truth);
+  tapped(drive.noisy);
+  const Guard follows = roughness(drive, none);
+  EXPECT_GT(*follows.value, 1.5);
+  EXPECT_EQ(follows.verdict, Verdict::kPass) << follows.limit;
+  EXPECT_EQ(roughness(Drive(), tapped).verdict, Verdict::kFail) << "these are the method's";
+  EXPECT_EQ(roughness(Drive(), stepped).verdict, Verdict::kFail);
+}
+
 // Steps of 1, 2 and 4 beside the joints: their logarithms are ln 2 on average, with a standard deviation of sqrt(2/3) ln 2.
 TEST(Guards, ExpectOfTheLargestStepAtAJointWhatOtherPlacesShow) {
   Contender contender;
@@ -134,7 +160,7 @@ TEST(Guards, ExpectOfTheLargestStepAtAJointWhatOtherPlacesShow) {
     const double sign = t / 4 % 2 == 0 ? 1.0 : -1.0;
     contender.estimate[t] = contender.estimate[t - 1] + sign * std::array{0.5, 1.0, 2.0, 4.0}[t % 4];
   }
-  const auto figures = joint_figures(contender, {0, 401});
+  const auto figures = joint_figures(contender, contender.estimate, {0, 401});
   ASSERT_TRUE(figures);
   const double ordinary = std::sqrt((1.0 + 4.0 + 16.0) / 3.0);
   EXPECT_NEAR(figures->worst_step, 0.5 / ordinary, 1e-9);
