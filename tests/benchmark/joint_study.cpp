@@ -5,7 +5,7 @@
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
 // (first sample of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
-// that were moved by hand, their own rates the truth, no prototype to compare with); and core::JointOptions' members.
+// that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; neither has a prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,9 +67,11 @@ void print(const char* what, const test::ByLag& values) {
   for (const double value : values) std::printf(" %5.3f", value);
 }
 
-bool has_motion_by_hand(const Arguments& arguments) {
-  const auto found = arguments.find("motion");
-  return found != arguments.end() && found->second == "hand";
+std::vector<test::DriveRow> rows_of(const std::string& motion, const test::NoiseChoice& noise) {
+  if (motion == "car") return test::drive_rows(noise);
+  if (motion == "hand") return test::hand_rows(noise);
+  if (motion == "smooth") return test::smooth_rows(noise);
+  throw std::runtime_error("motion=" + motion + ": expected car, hand or smooth");
 }
 
 int study(const Arguments& arguments) {
@@ -81,14 +83,15 @@ int study(const Arguments& arguments) {
   double sum = 0.0;
   std::size_t cells = 0;
   const auto axes = arguments.find("axes");
-  const bool by_hand = has_motion_by_hand(arguments);
+  const auto found = arguments.find("motion");
+  const std::string motion = found == arguments.end() ? "car" : found->second;
   const auto choice = noise_choice(arguments);
   const test::JointSetting setting = setting_of(arguments);
-  for (auto& row : by_hand ? test::hand_rows(choice) : test::drive_rows(choice)) {
+  for (auto& row : rows_of(motion, choice)) {
     if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
     const core::NoiseModel noise = believed(row, arguments);
     begin_at(row, number(arguments, "begin", 0));
-    if (!by_hand) test::resample(row, number(arguments, "rate", 120));
+    if (motion != "hand") test::resample(row, number(arguments, "rate", 120));
     const test::JointFigures figures = test::joint_figures(row, noise, setting);
     std::printf("%-12s ", row.name.c_str());
     print("", figures.rmse);

@@ -182,4 +182,41 @@ inline std::vector<DriveRow> hand_rows(const NoiseChoice& noise = {}) {
   return rows;
 }
 
+/// Smooth motion far above the noise, deg/s: a swell on x, roundabouts of 90 degrees on y, slow bends of a motorway on z.
+inline std::vector<double> smooth_motion(std::size_t axis, double rate_hz, std::size_t size) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  std::vector<double> x(size);
+  for (std::size_t n = 0; n < size; ++n) {
+    const double t = static_cast<double>(n) / rate_hz;
+    const auto tone = [t](double amplitude, double frequency_hz, double phase) {
+      return amplitude * std::sin(kTurn * frequency_hz * t + phase);
+    };
+    if (axis == 0) {
+      x[n] = tone(8.0, 0.11, 0.0) + tone(3.0, 0.17, 1.0) + tone(1.5, 0.29, 2.0);
+    } else if (axis == 1) {  // 6 s of every 12, to the left and to the right, raised cosines
+      const double within = std::fmod(t, 12.0);
+      const double side = std::fmod(t, 24.0) < 12.0 ? 1.0 : -1.0;
+      x[n] = within < 6.0 ? side * 15.0 * (1.0 - std::cos(kTurn * within / 6.0)) : 0.0;
+    } else {
+      x[n] = tone(2.0, 0.021, 0.0) + tone(1.0, 0.047, 1.0);
+    }
+  }
+  return x;
+}
+
+/// Nine rows of smooth_motion(), 100 s, three axes and noise scaled by 1, 0.3 and 3. @pre the noise's file is there
+inline std::vector<DriveRow> smooth_rows(const NoiseChoice& noise = {}) {
+  constexpr double kNoiseRateHz = 100.0;
+  constexpr double kRateHz = 120.0;
+  const std::vector<double> still = detail::still_dps(noise, kNoiseRateHz);
+  std::vector<DriveRow> rows;
+  for (const double scale : {1.0, 0.3, 3.0}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      auto truth = smooth_motion(axis, kRateHz, 12'000);
+      rows.push_back(detail::noisy_row("smooth", axis, kRateHz, std::move(truth), still, noise, scale));
+    }
+  }
+  return rows;
+}
+
 }  // namespace gyrod::test

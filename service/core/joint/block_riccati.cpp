@@ -236,9 +236,10 @@ void BlockRiccati::divide(const MatrixBuffer& right, MatrixBuffer& out) noexcept
   }
 }
 
-/// One more step of the recursion leaves X H where it is.
+/// One more step of the recursion leaves X H where it is, but for a thousandth: gains that are that much off cost a millionth of the error. Smooth
+/// motion far above the noise has modes with all their roots next to 1, of which rounding leaves a part in 1e5.
 bool BlockRiccati::meets_equation() noexcept {
-  constexpr double kTolerance = 1e-6;
+  constexpr double kTolerance = 1e-3;
   std::copy_n(X_.begin(), padded_ * kStride, growth_.begin());
   step();
   observe();

@@ -67,7 +67,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   for (std::size_t n = 0; n < window.size(); ++n) centred_[n] = window[n] - report.mean;
   if (std::ranges::all_of(centred_, [](double value) { return value == 0.0; })) return;
   knocks_.apply(centred_, options_);
-  tapers_.spectrum(centred_, periodogram_);
+  tapers_.prewhitened_spectrum(centred_, periodogram_);
   judge_noise(noise, model, report);
   const Tone tone = find_motion_tone();
   if (tone.prominence >= kSureTone) {

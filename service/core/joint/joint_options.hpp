@@ -46,7 +46,7 @@ struct JointOptions {
   /// Recency-warped sine tapers that are averaged. Range 1..8.
   std::size_t tapers = 2;
   /// How strongly the tapers look at the newest samples; 0 looks at all alike. Range 0..20.
-  double recency = 3.0;
+  double recency = 2.5;
   /// Iterations of the EM fit: of the full set of modes, and of the pruned set before and after pruning. Range 1..100.
   int full_iterations = 20;
   int pruned_iterations = 5;
@@ -73,7 +73,7 @@ struct JointOptions {
   /// inverse; the still one by the square of its inverse. Range 1..1000.
   double drive_ratio = 4.0;
   /// Logarithm of the prior weight of an agile member, of the rough and the calm one, and of the still one. Range -100..0.
-  double agile_log_prior = -2.0;
+  double agile_log_prior = -1.0;
   double drive_log_prior = -1.0;
   double still_log_prior = -0.5;
   /// Probability that another member than before answers best from the next sample on. Range 0..1.

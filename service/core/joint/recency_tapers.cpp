@@ -1,6 +1,7 @@
 #include "core/joint/recency_tapers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -13,7 +14,6 @@
 #include "core/signal/sums.hpp"
 
 namespace gyrod::core {
-
 class RecencyTapers::Transform {
  public:
   explicit Transform(std::size_t length) : spectrum_(length) {
@@ -38,8 +38,15 @@ RecencyTapers::RecencyTapers(std::size_t max_samples, std::size_t tapers, double
       recency_(recency),
       table_(tapers * max_samples),
       work_(transform_samples_),
+      whitened_(max_samples),
+      half_sines_(bins()),
       transform_(std::make_unique<Transform>(transform_samples_)) {
   assert(max_samples >= 8);
+  for (std::size_t bin = 0; bin < half_sines_.size(); ++bin) {
+    const double sine =
+        std::sin(std::numbers::pi * static_cast<double>(bin) / static_cast<double>(transform_samples_));
+    half_sines_[bin] = sine * sine;
+  }
   // The library makes its plan on first use: make it here, so that later calls allocate nothing.
   std::vector<double> nothing(bins());
   transform_->add_power(work_, 0.0, nothing);
@@ -66,6 +73,18 @@ void RecencyTapers::spectrum(std::span<const double> x, std::span<double> power)
   }
 }
 
+void RecencyTapers::prewhitened_spectrum(std::span<const double> x, std::span<double> power) noexcept {
+  std::array<double, 2> r{};
+  autocovariance(x, r);
+  const double c = r[0] > 0.0 ? std::min(r[1] / r[0], 1.0 - bandwidth_) : 0.0;
+  const std::span<double> y = std::span(whitened_).first(x.size());
+  y[0] = (1.0 - c) * x[0];
+  for (std::size_t i = 1; i < x.size(); ++i) y[i] = x[i] - c * x[i - 1];
+  spectrum(y, power);
+  for (std::size_t bin = 0; bin < power.size(); ++bin)
+    power[bin] /= (1.0 - c) * (1.0 - c) + 4.0 * c * half_sines_[bin];
+}
+
 void RecencyTapers::autocovariance(std::span<const double> x, std::span<double> r) noexcept {
   assert(r.size() <= x.size());
   prepare(x.size());
@@ -84,6 +103,7 @@ void RecencyTapers::prepare(std::size_t samples) noexcept {
   assert(samples >= 8 && samples <= max_samples_);
   if (samples == samples_) return;
   samples_ = samples;
+  double slopes = 0.0;
   for (std::size_t k = 0; k < tapers_; ++k) {
     const std::span<double> row{table_.data() + k * max_samples_, samples};
     for (std::size_t i = 0; i < samples; ++i) {
@@ -94,7 +114,10 @@ void RecencyTapers::prepare(std::size_t samples) noexcept {
     }
     const double norm = std::sqrt(sum_of(row, [](auto t) { return t * t; }));
     for (double& value : row) value /= norm;
+    slopes += row[0] * row[0];
+    for (std::size_t i = 1; i < samples; ++i) slopes += (row[i] - row[i - 1]) * (row[i] - row[i - 1]);
   }
+  bandwidth_ = std::sqrt(slopes / static_cast<double>(tapers_));
 }
 
 std::span<const double> RecencyTapers::taper(std::size_t k) const noexcept {

@@ -34,7 +34,14 @@ class RecencyTapers {
   /// @pre 8 <= x.size() <= max_samples, power.size() == bins()
   void spectrum(std::span<const double> x, std::span<double> power) noexcept;
 
-  /// Its autocovariances without the wrap-around: r_l = mean over tapers of sum_i t(i) x_i t(i+l) x_(i+l), l = 0..r.size()-1.
+  /// The same without what leaks: where slow motion is tens of decibels above the noise, the tapers' steep end lays a false spectrum over some
+  /// hertz. So what is tapered is y[n] = x[n] - c x[n-1], with c the first autocorrelation of the tapered samples, and the periodogram is
+  /// divided by |1 - c e^-iw|^2 (prewhitening). 1 - c is at least the tapers' own rms frequency: what is slower than that they do not resolve, and the
+  /// division would blow up what the differences leave of it.
+  /// @pre as above
+  void prewhitened_spectrum(std::span<const double> x, std::span<double> power) noexcept;
+
+  /// Autocovariances of spectrum() without the wrap-around: r_l = mean over tapers of sum_i t(i) x_i t(i+l) x_(i+l), l = 0..r.size()-1.
   /// @pre as above, r.size() <= x.size()
   void autocovariance(std::span<const double> x, std::span<double> r) noexcept;
 
@@ -51,6 +58,9 @@ class RecencyTapers {
   std::size_t samples_ = 0;    ///< that the tapers stand for
   std::vector<double> table_;  ///< tapers_ rows of max_samples_
   std::vector<double> work_;
+  std::vector<double> whitened_;
+  double bandwidth_ = 0.0;          ///< rms of the tapers' own frequencies, rad a sample
+  std::vector<double> half_sines_;  ///< sin^2(w / 2)
   std::unique_ptr<Transform> transform_;
 };
 

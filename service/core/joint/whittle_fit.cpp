@@ -13,6 +13,9 @@ namespace gyrod::core {
 namespace {
 
 constexpr std::size_t kLags = kModeLags;
+/// Cycles a sample, a hundredth of a bin. Without it the roots of the slow mode go onto the unit circle where nothing else explains the lowest bin,
+/// and rounding decides what is made of it.
+constexpr double kSlowBandwidth = 1e-5;
 
 }  // namespace
 
@@ -32,6 +35,8 @@ WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles, E
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     const double angle = 2.0 * std::numbers::pi * bandwidth_cycles * static_cast<double>(lag);
     narrowing_[lag] = std::exp(-0.5 * angle * angle);
+    const double slow_angle = 2.0 * std::numbers::pi * kSlowBandwidth * static_cast<double>(lag);
+    slow_narrowing_[lag] = std::exp(-0.5 * slow_angle * slow_angle);
     for (std::size_t k = 0; k < bins_; ++k) {
       const double w = 2.0 * std::numbers::pi * static_cast<double>(k * lag) / length;
       const double both_signs = k == 0 || k + 1 == bins_ ? 1.0 : 2.0;
@@ -138,7 +143,8 @@ WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
 SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool slow) const noexcept {
   assert(autocovariance.size() == kLags);
   std::array<double, kLags> r{};
-  for (std::size_t lag = 0; lag < kLags; ++lag) r[lag] = autocovariance[lag] * (slow ? 1.0 : narrowing_[lag]);
+  for (std::size_t lag = 0; lag < kLags; ++lag)
+    r[lag] = autocovariance[lag] * (slow ? slow_narrowing_ : narrowing_)[lag];
   SpectralMode mode;
   mode.slow = slow;
   mode.drive = levinson(r, mode.a);

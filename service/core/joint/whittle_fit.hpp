@@ -16,7 +16,7 @@ namespace gyrod::core {
 ///   M(w) = sum_j S_j(w) + R(w),   S_j = drive_j / |a_j|^2,   ln L = -sum_w (ln M + I / M).
 /// One iteration: the expected periodogram of every mode given the sum,
 ///   post_j = (S_j / M)^2 I + S_j (1 - S_j / M),
-/// its autocovariances, narrowed no further than a least bandwidth except for the slow mode, and Levinson's recursion.
+/// its autocovariances, narrowed no further than a least bandwidth, hardly any for the slow mode, and Levinson's recursion.
 /// Sizes its workspace once; no call allocates after that. Not thread-safe.
 /// Source: Whittle 1953; Dempster, Laird, Rubin 1977; docs/method.md.
 class WhittleFit {
@@ -75,9 +75,10 @@ class WhittleFit {
 
   const SpectralKernel* kernel_;
   std::size_t bins_;
-  std::array<double, kModeOrder + 1> narrowing_{};  ///< lag window of the modes that are not slow
-  double kept_ = 1.0;                               ///< of a mode's drive, by an iteration
-  std::vector<double> cosines_;                     ///< kModeOrder + 1 rows: cos(l w)
+  std::array<double, kModeOrder + 1> narrowing_{};       ///< lag window of the modes that are not slow
+  std::array<double, kModeOrder + 1> slow_narrowing_{};  ///< and of the slow one
+  double kept_ = 1.0;                                    ///< of a mode's drive, by an iteration
+  std::vector<double> cosines_;                          ///< kModeOrder + 1 rows: cos(l w)
   std::vector<double> sines_;
   std::vector<double> weights_;  ///< the same cosines as weights of a bin in the autocovariance at lag l
   std::vector<double> noise_;    ///< R

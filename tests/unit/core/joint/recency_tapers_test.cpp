@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -93,13 +94,70 @@ TEST(RecencyTapers, AutocovarianceIsTheSumInTime) {
 // two degrees of freedom and neighbours alike: 1 % is three of the mean's deviations.
 TEST(RecencyTapers, WhiteNoiseHasItsVarianceAsMeanSpectrum) {
   RecencyTapers tapers(1024, 2, 4.0);
-  Signal power(tapers.bins());
-  double sum = 0.0;
-  for (unsigned seed = 1; seed <= 200; ++seed) {
-    tapers.spectrum(testing::times(white_noise(1024, seed), 3.0), power);
-    sum += std::accumulate(power.begin(), power.end(), 0.0) / static_cast<double>(power.size());
+  for (const auto spectrum : {&RecencyTapers::spectrum, &RecencyTapers::prewhitened_spectrum}) {
+    Signal power(tapers.bins());
+    double sum = 0.0;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+      (tapers.*spectrum)(testing::times(white_noise(1024, seed), 3.0), power);
+      sum += std::accumulate(power.begin(), power.end(), 0.0) / static_cast<double>(power.size());
+    }
+    EXPECT_NEAR(sum / 200.0, 9.0, 0.09 * 2.0);
   }
-  EXPECT_NEAR(sum / 200.0, 9.0, 0.09 * 2.0);
+}
+
+double mean_of(std::span<const double> power) {
+  return std::accumulate(power.begin(), power.end(), 0.0) / static_cast<double>(power.size());
+}
+
+// Motion of 1.3 periods a window, 57 dB above the noise's variance of 1. Means over 20 windows and the upper seven eighths of the spectrum:
+// 1 % by chance.
+TEST(RecencyTapers, PrewhiteningKeepsSlowMotionOutOfTheNoise) {
+  RecencyTapers tapers(1024, 2, 3.0);
+  Signal power(tapers.bins());
+  double raw = 0.0;
+  double whitened = 0.0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Signal x = testing::sum(testing::times(testing::tone(1024, 0.0013, 0.1 * seed), 1000.0),
+                                  white_noise(1024, seed));
+    tapers.spectrum(x, power);
+    raw += mean_of(std::span(power).subspan(64)) / 20.0;
+    tapers.prewhitened_spectrum(x, power);
+    whitened += mean_of(std::span(power).subspan(64)) / 20.0;
+  }
+  EXPECT_GT(raw, 2.0) << "what leaks";
+  EXPECT_NEAR(whitened, 1.0, 0.05);
+}
+
+// 1 / |1 - 0.98 e^-iw|^2, in bands of eight bins above those that the tapers blur: two degrees of freedom a bin, 200 windows.
+TEST(RecencyTapers, PrewhitenedSpectrumIsThatOfTheProcess) {
+  RecencyTapers tapers(1024, 2, 3.0);
+  const std::array<double, 1> a = {0.98};
+  Signal power(tapers.bins());
+  Signal sum(tapers.bins());
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    tapers.prewhitened_spectrum(testing::autoregressive(a, 1024, seed), power);
+    sum = testing::sum(sum, power, 1.0 / 200.0);
+  }
+  for (std::size_t begin = 8; begin + 8 < sum.size(); begin += 8) {
+    double ratio = 0.0;
+    for (std::size_t k = begin; k < begin + 8; ++k) {
+      const double w = std::numbers::pi * static_cast<double>(k) / 512.0;
+      ratio += sum[k] * (1.0 + 0.98 * 0.98 - 2.0 * 0.98 * std::cos(w)) / 8.0;
+    }
+    EXPECT_NEAR(ratio, 1.0, 0.12) << begin;
+  }
+}
+
+// What does not change but for a slow drift: the division is bounded by what the tapers resolve.
+TEST(RecencyTapers, PrewhiteningDoesNotBlowUpWhatIsSlowerThanTheTapers) {
+  RecencyTapers tapers(1024, 2, 3.0);
+  Signal ramp(1024);
+  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<double>(i) / 1024.0 - 0.5;
+  Signal plain(tapers.bins());
+  Signal whitened(tapers.bins());
+  tapers.spectrum(ramp, plain);
+  tapers.prewhitened_spectrum(ramp, whitened);
+  EXPECT_LT(whitened[0], 3.0 * plain[0]);
 }
 
 // The newest quarter holds 1 - phi(3/4) = 65 % of the way that a sine taper's energy is spread over.
