@@ -61,6 +61,10 @@ TEST(NoiseUnits, KeepTheDensityAtAnotherRate) {
   const NoiseModel twice = at_rate(coloured(), 100.0, 200.0);
   EXPECT_EQ(twice, white_noise(10.0));
   EXPECT_NEAR(noise_density(twice, 200.0), noise_density(coloured(), 100.0), 1e-15);
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(at_rate(coloured(), 100.0, 100.0 + 1.9 * sign), coloured()) << "two in a hundred are the same";
+    EXPECT_EQ(at_rate(coloured(), 100.0, 100.0 + 2.1 * sign).colour_order, 0U) << sign;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "core/noise/still_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,29 @@ TEST(StillSearch, LeavesOutWhatIsLouderThanTheQuietest) {
   ASSERT_EQ(found.stretches.size(), 1U);
   EXPECT_GE(found.stretches[0].first, 3000U);
   EXPECT_GE(found.louder, 2900U);
+}
+
+// Up to 1.5 times the variance is one noise; a mean over half a minute knows its own to 3 %.
+TEST(StillSearch, KeepsWhatIsLittleLouderThanTheQuietest) {
+  for (const double ratio : {1.35, 1.65}) {
+    Axes axes = testing::still_axes(3000, 0.3, 1);
+    append(axes, moving(2000, 2));
+    append(axes, testing::still_axes(3000, 0.3 * std::sqrt(ratio), 3));
+    const StillSearch found = find_still(input_of(axes), 100.0);
+    EXPECT_EQ(found.stretches.size(), ratio < 1.5 ? 2U : 1U) << ratio;
+    EXPECT_EQ(found.louder > 0, ratio > 1.5) << ratio;
+  }
+}
+
+// Of one window or of twenty, one noise has one variance.
+TEST(StillSearch, KeepsLongStretchesBesideAShortOne) {
+  Axes axes = testing::still_axes(850, 0.3, 1);
+  append(axes, moving(2000, 2));
+  append(axes, testing::still_axes(3000, 0.3, 3));
+  const StillSearch found = find_still(input_of(axes), 100.0);
+  ASSERT_EQ(found.stretches.size(), 2U);
+  EXPECT_EQ(found.stretches[0].size, 800U);
+  EXPECT_EQ(found.louder, 0U);
 }
 
 // An axis that is stuck for three quarters of a minute is no rest, and not the quietest one.
