@@ -131,9 +131,12 @@ TEST(Misfit, IsNotSaidOfNoiseThatIsBelievedRightly) {
 class MisfitOfAFilter : public ::testing::Test {
  protected:
   MisfitOfAFilter() { open(100.0); }
-  /// @param believed the noise's variance, in parts of what it is
-  void open(double rate_hz, double believed = 1.0) {
+  void open(double rate_hz) {
     filter_ = factory_.filter(16);
+    use(rate_hz, 1.0);
+  }
+  /// @param believed the noise's variance, in parts of what it is
+  void use(double rate_hz, double believed) {
     const auto noise = testing::times(testing::white_noise(1024, 1), kStd);
     const auto model = factory_.model();
     const auto method = factory_.method(1024);
@@ -200,15 +203,41 @@ TEST_F(MisfitOfAFilter, LastsForTheSameSecondsAtLeastAtAHighRate) {
   }
 }
 
+// A level that is a ninth of the believed one is said to be wrong by the 512th sample in a row, and right again by the 512th.
 TEST_F(MisfitOfAFilter, AsksForTheSameSecondsOfNoiseThatIsNotAsBelieved) {
   for (const auto& [rate_hz, expected] : {std::pair{100.0, 512U}, std::pair{960.0, 8U * 512U}}) {
-    open(rate_hz, 9.0);
+    open(rate_hz);
     const auto noise = testing::times(testing::white_noise(expected, 3), kStd);
-    unsigned taken = 0;
-    while (taken < expected && !filter_->model_fit().wrong_noise) filter_->step(noise[taken++]);
-    EXPECT_TRUE(filter_->model_fit().wrong_noise) << rate_hz;
-    EXPECT_EQ(taken, expected) << rate_hz;
+    for (const bool wrong : {true, false}) {
+      use(rate_hz, wrong ? 9.0 : 1.0);
+      unsigned taken = 0;
+      while (taken < expected && filter_->model_fit().wrong_noise != wrong) filter_->step(noise[taken++]);
+      EXPECT_EQ(filter_->model_fit().wrong_noise, wrong) << rate_hz;
+      EXPECT_EQ(taken, expected) << rate_hz << wrong;
+    }
   }
+}
+
+// Entered where the mean of the innovations leaves 0.7 to 2; left within 0.8 to 1.6, 128 samples later at the earliest.
+TEST_F(MisfitOfAFilter, HasTheLimitsOfTheManual) {
+  std::size_t lasted = 0;
+  std::size_t entered_above = 0;
+  std::size_t entered_below = 0;
+  const auto scales = testing::white_noise(300, 3);
+  const auto noise = testing::white_noise(scales.size() * 400, 4);
+  for (std::size_t n = 0; n < noise.size(); ++n) {
+    filter_->step(kStd * noise[n] * std::exp(0.6 * scales[n / 400]));
+    const ModelFit fit = filter_->model_fit();
+    const double mean = fit.normalised_innovation;
+    const bool leaves = lasted >= 128 && mean >= 0.8 && mean <= 1.6;
+    const bool expected = lasted > 0 ? !leaves : mean < 0.7 || mean > 2.0;
+    ASSERT_EQ(fit.misfit, expected) << n << ": " << mean;
+    entered_above += expected && lasted == 0 && mean > 2.0 ? 1U : 0U;
+    entered_below += expected && lasted == 0 && mean < 0.7 ? 1U : 0U;
+    lasted = expected ? lasted + 1 : 0;
+  }
+  EXPECT_GT(entered_above, 10U);
+  EXPECT_GT(entered_below, 10U);
 }
 
 /// Spells of the sensor's flag, in parts of all samples, as docs/method.md states them.
