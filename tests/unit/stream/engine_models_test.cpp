@@ -108,6 +108,44 @@ TEST_P(EngineWithLateModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooL
   EXPECT_EQ(engine.snapshot().totals.in_flight, 0U);
 }
 
+// The first samples of a stretch have no older models: there are none of it yet.
+TEST(EngineWithLateModels, FlagsNoHopOfTheStretchAfterTheOneInWhichTheyWereLate) {
+  RecordingSink sink;
+  Gatekeeper gate;
+  std::atomic<double> now{0.0};
+  EngineOptions options = small_options(1);
+  options.max_delay_s = 1.0;
+  options.max_hop_samples = options.hop_samples;
+  Engine engine(options, testing::last_sample_method([&gate] { gate.pass(); }), sink,
+                [&now] { return now.load(); });
+  gate.set_open(false);
+  engine.push("imu", counting_samples(40));
+  gate.wait_for_entry();
+  now = 5.0;
+  engine.push("imu", counting_samples(60, 40));
+  EXPECT_TRUE(has_flag(sink.realtime("imu").back(), SampleFlag::kHopWidened));
+  gate.set_open(true);
+  engine.wait_idle();
+  engine.push("imu", counting_samples(40, 1000));
+  const auto realtime = sink.realtime("imu");
+  ASSERT_EQ(realtime.size(), 140U);
+  for (std::size_t n = 100; n < realtime.size(); ++n)
+    EXPECT_FALSE(has_flag(realtime[n], SampleFlag::kHopWidened)) << n;
+}
+
+// The model of the last window before a gap is made while the first hop after it runs, and is not for that stretch.
+TEST(EngineWithModels, UsesNoModelOfTheStretchBeforeAGap) {
+  RecordingSink sink;
+  Engine engine(small_options(0), testing::last_sample_method(), sink);
+  engine.push("imu", counting_samples(100));
+  engine.push("imu", counting_samples(70, 1000));
+  const auto realtime = sink.realtime("imu");
+  ASSERT_EQ(realtime.size(), 170U);
+  // The stretch's own first window ends with sample 1031 and serves from its second hop's end on.
+  for (std::uint64_t n = 1000; n < 1070; ++n)
+    EXPECT_EQ(realtime[n - 900].rate_radps[0], static_cast<double>(n) + (n < 1064 ? 0.0 : 1031e3)) << n;
+}
+
 TEST(EngineWithModels, ReleasesTheHeldSamplesAtALongGap) {
   RecordingSink sink;
   Engine engine(small_options(1), testing::last_sample_method(), sink);
