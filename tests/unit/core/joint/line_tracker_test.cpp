@@ -180,6 +180,50 @@ TEST(LineTracker, StaysFiniteWhateverItSees) {
   }
 }
 
+// What stands out of a short window is as wide as its bins: it tells less of where the line is.
+TEST(LineTracker, AShortWindowTellsLess) {
+  const auto deviation_of = [](double samples) {
+    const Signal window = window_with(line_at(0.21, kPower));
+    const Signal rest(kBins, 1.0);
+    LineTracker tracker = tracker_at_first();
+    LineEvidence seen = evidence(window, rest, kNoMotion);
+    seen.resolution = 1.0 / samples;
+    for (int i = 0; i < 8; ++i) tracker.observe(seen, kOptions);
+    return tracker.place().deviation;
+  };
+  EXPECT_GT(deviation_of(64.0), 1.2 * deviation_of(1024.0));
+}
+
+// Twice the half width, and a quarter of the frequency at the most, which is where the places end.
+TEST(LineTracker, ALineReachesAsFarAsItsWidthAndItsPlaces) {
+  const NoiseLine narrow{.cycles = 0.2, .half_width = 0.01, .power = 1.0};
+  EXPECT_TRUE(narrow.reaches(0.219, kOptions));
+  EXPECT_FALSE(narrow.reaches(0.221, kOptions));
+  EXPECT_TRUE(narrow.reaches(0.181, kOptions));
+  EXPECT_FALSE(narrow.reaches(0.179, kOptions));
+  const NoiseLine broad{.cycles = 0.2, .half_width = 0.05, .power = 1.0};
+  EXPECT_TRUE(broad.reaches(0.249, kOptions));
+  EXPECT_FALSE(broad.reaches(0.251, kOptions));
+}
+
+// However far a line may wander in a window's time, no place gives away more than it has: where a window says nothing, they stay probabilities, and
+// spread to what all places alike have, 0.25 / sqrt(3) of the frequency.
+TEST(LineTracker, SpreadsNoFurtherThanAllOver) {
+  LineOptions options;
+  options.drift = 0.1;
+  options.leak = 0.0;
+  const Signal shaking(kBins, 1e9);
+  const Signal rest(kBins, 1.0);
+  LineTracker tracker = tracker_at_first();
+  LineEvidence window = evidence(shaking, rest, shaking);
+  window.share = 1.0;
+  for (int i = 0; i < 2000; ++i) {
+    tracker.observe(window, options);
+    ASSERT_LT(tracker.place().deviation, 0.2 * 0.25 / std::sqrt(3.0) * 1.06) << i;
+  }
+  EXPECT_NEAR(tracker.place().deviation, 0.2 * 0.25 / std::sqrt(3.0), 0.06 * 0.03);
+}
+
 TEST(LineTracker, AllocatesNothing) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
   const Signal window = window_with(line_at(0.21, kPower));

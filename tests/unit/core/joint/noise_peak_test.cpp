@@ -31,7 +31,7 @@ TEST(NoisePeak, RestAndLineAddUp) {
   EXPECT_EQ(peak->rest.white_variance, noise.white_variance);
   for (std::size_t k = 0; k < kNoiseBins; k += 8) {
     const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / kNoiseSegment;
-    // White noise of 1 and the resonance's feet: what is left has no peak; the peak stood at 9.
+    // White noise of 1 and the resonance's feet: what is left has no peak; the peak stood at 17.
     EXPECT_NEAR(noise_spectrum(peak->rest, w), 1.0, 0.15) << k;
   }
 }
@@ -44,6 +44,12 @@ TEST(NoisePeak, ThereIsNoneInWhiteNoiseNorInASlope) {
   slope.colour_variance = 1.0;
   EXPECT_FALSE(find_noise_peak(slope));
   EXPECT_FALSE(find_noise_peak({}));
+}
+
+// A resonance of power p stands at 1 + 33 p: 2.1 and 3.1 times what is elsewhere.
+TEST(NoisePeak, ALineStandsOutTwoAndAHalfTimes) {
+  EXPECT_FALSE(find_noise_peak(noise_with_line(0.2, 0.033)));
+  EXPECT_TRUE(find_noise_peak(noise_with_line(0.2, 0.065)));
 }
 
 TEST(NoisePeak, SlowNoiseIsNotALine) { EXPECT_FALSE(find_noise_peak(noise_with_line(0.005, 3.0))); }

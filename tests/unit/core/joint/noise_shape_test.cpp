@@ -98,6 +98,24 @@ TEST(NoiseShape, GoesNoFurtherThanItsBounds) {
   EXPECT_TRUE(std::isfinite(likely_shape(uneven, false).level));
 }
 
+// One band that is e^-2 of what all others show, as of a notch, does not outweigh seven: beyond -70 it counts no more.
+TEST(NoiseShape, OneBandFarBelowDoesNotOutweighTheOthers) {
+  BandPower power{};
+  power.fill(1.0);
+  power[2] = std::exp(-2.0);
+  EXPECT_NEAR(likely_shape(power, true).level, 1.0, 0.05);
+}
+
+// Within two deviations of a tenth in the logarithm. The shape's means over bands are those of its spectrum to 1e-4.
+TEST(NoiseShape, BandsOfNoiseAloneAreThoseWithinTwoDeviations) {
+  const NoiseShape shape{.level = 2.0, .tilt = 0.4};
+  for (const double off : {-0.21, -0.19, 0.0, 0.19, 0.21}) {
+    BandPower power = bands_of(shape);
+    for (std::size_t band = 0; band < 3; ++band) power[band] *= std::exp(off);
+    EXPECT_EQ(bands_of_noise_alone(power, shape), std::abs(off) < 0.2 ? kNoiseBands : kNoiseBands - 3) << off;
+  }
+}
+
 TEST(NoiseShape, AnEmptyBandIsNoNoise) {
   BandPower power{};
   power.fill(1.0);

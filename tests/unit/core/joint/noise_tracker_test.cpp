@@ -97,10 +97,15 @@ TEST(NoiseTracker, FindsALevelBelievedManyTimesTooHigh) {
   }
 }
 
-// The road shakes every band, and differently.
-TEST(NoiseTracker, KeepsWhatIsBelievedOnAVeryRoughRoad) {
+/// Shakes every band, and differently.
+Spectrum very_rough_road() {
   Spectrum road = spectrum(1.0);
   for (std::size_t k = 0; k < kBins; ++k) road[k] += 400.0 * std::exp(-static_cast<double>(k) / 120.0);
+  return road;
+}
+
+TEST(NoiseTracker, KeepsWhatIsBelievedOnAVeryRoughRoad) {
+  const Spectrum road = very_rough_road();
   NoiseTracker tracker;
   watch(tracker, road, 320);
   EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
@@ -219,6 +224,27 @@ TEST(NoiseTracker, IsWellAgainAfterWhatIsNotFinite) {
   watch(tracker, spectrum(1e308), 1, coloured(1e-300));
   watch(tracker, spectrum(0.7), 200, coloured(1e-300));
   EXPECT_NEAR(tracker.level(), 0.7, 0.1);
+}
+
+// A far level is kept on a rough road as long as no band is quiet. It is in parts of what was believed: with another belief it is over.
+TEST(NoiseTracker, KeepsNoFarLevelInPartsOfAnotherBelief) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(100.0), 64);
+  watch(tracker, very_rough_road(), 320);
+  EXPECT_GT(tracker.level(), 4.0) << "6.6 is the quietest bin";
+  watch(tracker, very_rough_road(), 1, coloured(1.01));
+  EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
+}
+
+// Until a window's length has been seen, all bands may be of one bump.
+TEST(NoiseTracker, SaysNothingOfLouderBandsBeforeAWindowsLength) {
+  NoiseTracker tracker;
+  watch(tracker, spectrum(10.0), 31);
+  EXPECT_EQ(tracker.shown_level(), 1.0);
+  EXPECT_FALSE(tracker.disagrees());
+  watch(tracker, spectrum(10.0), 1);
+  EXPECT_NEAR(tracker.shown_level(), 10.0, 0.1);
+  EXPECT_TRUE(tracker.disagrees());
 }
 
 TEST(NoiseTracker, FindsTheColourWhereOnlyALevelIsBelieved) {

@@ -1,0 +1,72 @@
+// Which level the tracker finds in bands of given strength, by the rules of docs/method.md, "When the noise is not as believed".
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/joint/noise_tracker.hpp"
+
+namespace gyrod::core {
+namespace {
+
+/// Level after a window's length of noise whose level and colour are believed, bands in parts of that.
+NoiseTracker after_bands(const BandPower& bands) {
+  constexpr std::size_t kPerBand = 64;
+  std::vector<double> power(kNoiseBands * kPerBand + 1, bands[0]);
+  for (std::size_t band = 0; band < kNoiseBands; ++band)
+    std::fill_n(power.begin() + static_cast<std::ptrdiff_t>(band * kPerBand + 1), kPerBand, bands[band]);
+  NoiseModel believed = white_noise(0.9);
+  believed.colour_order = 1;
+  believed.colour[0] = 0.1;
+  believed.colour_variance = 0.1;
+  NoiseTracker tracker;
+  for (int i = 0; i < 40; ++i)
+    tracker.observe(power, std::vector<double>(power.size(), 1.0), believed, 1.0 / 32.0, 1.0 / 32.0);
+  return tracker;
+}
+
+double level_of_bands(const BandPower& bands) { return after_bands(bands).level(); }
+
+// The mean to the power of 1.5, or that of the quietest three to the power of 6: the smaller.
+TEST(NoiseLevel, IsRaisedAsTheQuietestThreeAllow) {
+  EXPECT_NEAR(level_of_bands({1.05, 1.05, 1.05, 1.5, 1.5, 1.5, 1.5, 1.5}), std::pow(1.05, 6.0), 1e-9);
+  EXPECT_NEAR(level_of_bands({1.2, 1.2, 1.2, 1.24, 1.24, 1.24, 1.24, 1.24}), std::pow(1.225, 1.5), 1e-9);
+}
+
+// Below half of what is believed in the quietest four: it is that, whatever the others show. Else what is above it speaks for the belief.
+TEST(NoiseLevel, FourBandsBelowHalfAreTheLevel) {
+  EXPECT_NEAR(level_of_bands({0.4, 0.4, 0.4, 0.4, 1.9, 1.9, 1.9, 1.9}), 0.4, 1e-9);
+  EXPECT_NEAR(level_of_bands({1.9, 0.48, 1.9, 0.48, 1.9, 0.48, 1.9, 0.48}), 0.48, 1e-9);
+  EXPECT_DOUBLE_EQ(level_of_bands({0.6, 0.6, 0.6, 0.6, 1.9, 1.9, 1.9, 1.9}), 1.0);
+}
+
+// All bands beyond 2: noise where the quietest four are within a quarter of one another, a road where they are not.
+TEST(NoiseLevel, FourBandsAlikeAreTheLevelWhereAllAreLouder) {
+  EXPECT_NEAR(level_of_bands({10.0, 10.0, 10.0, 12.4, 40.0, 60.0, 90.0, 140.0}), 10.6, 1e-9);
+  EXPECT_DOUBLE_EQ(level_of_bands({10.0, 10.0, 10.0, 12.6, 40.0, 60.0, 90.0, 140.0}), 1.0);
+  EXPECT_DOUBLE_EQ(level_of_bands({1.9, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0}), 1.0)
+      << "one is as quiet as it is believed to be";
+}
+
+// The quietest may be that of a line which is believed to be there and is not: then those next to it.
+TEST(NoiseLevel, TheQuietestBandMayBeThatOfALine) {
+  EXPECT_NEAR(level_of_bands({40.0, 10.0, 10.0, 5.0, 10.0, 10.0, 60.0, 90.0}), 10.0, 1e-9);
+  EXPECT_DOUBLE_EQ(level_of_bands({40.0, 10.0, 10.0, 5.0, 10.0, 13.0, 60.0, 90.0}), 1.0);
+}
+
+TEST(NoiseLevel, IsSaidToBeWrongBelowFourFifths) {
+  const auto disagrees_at = [](double level) {
+    BandPower bands{};
+    bands.fill(level);
+    return after_bands(bands).disagrees();
+  };
+  EXPECT_TRUE(disagrees_at(0.79));
+  EXPECT_FALSE(disagrees_at(0.81));
+  EXPECT_FALSE(disagrees_at(std::pow(1.39, 1.0 / 1.5)));
+  EXPECT_TRUE(disagrees_at(std::pow(1.41, 1.0 / 1.5)));
+}
+
+}  // namespace
+}  // namespace gyrod::core
