@@ -184,6 +184,7 @@ TEST(KalmanBank, ResetGivesTheBitsOfAFreshOne) {
     EXPECT_EQ(a.realtime.rate, b.realtime.rate) << t;
     EXPECT_EQ(a.denoised.rate, b.denoised.rate) << t;
     EXPECT_EQ(a.denoised.variance, b.denoised.variance) << t;
+    EXPECT_EQ(used.normalised_innovation(), fresh.normalised_innovation()) << t;
   }
 }
 

@@ -129,6 +129,97 @@ TEST(KalmanBank, ANewModelMakesNoStep) {
   }
 }
 
+// What is left of one step is not forgotten where the next model makes another: both fade. 1e-12: rounding.
+TEST(KalmanBank, StepsOfModelsThatFollowOneAnotherAddUp) {
+  JointOptions gently = bare();
+  gently.hand_over_memory = 0.75;
+  KalmanBank sudden(bare(), 16);
+  KalmanBank gentle(gently, 16);
+  for (KalmanBank* bank : {&sudden, &gentle}) bank->use(single(blocks()));
+  const Signal z = simulated(blocks(), 340, 13);
+  BankEstimates before;
+  double realtime = 0.0;
+  double denoised = 0.0;
+  for (std::size_t t = 0; t < z.size(); ++t) {
+    if (t == 300 || t == 303) {
+      BlockSet other = blocks();
+      for (FilterBlock& block : other.blocks) block.drive *= t == 300 ? 0.1 : 0.3;
+      for (KalmanBank* bank : {&sudden, &gentle}) bank->use(single(other));
+      realtime += before.realtime.rate - sudden.held(0).rate;
+      denoised += before.denoised.rate - sudden.held(16).rate;
+    }
+    realtime *= gently.hand_over_memory;
+    denoised *= gently.hand_over_memory;
+    before = sudden.step(z[t]);
+    const BankEstimates answer = gentle.step(z[t]);
+    EXPECT_NEAR(answer.realtime.rate - before.realtime.rate, realtime, 1e-12) << t;
+    EXPECT_NEAR(answer.denoised.rate - before.denoised.rate, denoised, 1e-12) << t;
+  }
+}
+
+// 1e308 x[t-1] - 1e308 x[t-2] of states that are ten times an innovation is infinity less infinity: with the second sample that member is out.
+TEST(KalmanBank, AMemberThatLeavesTheNumbersLeavesTheAnswerToTheOthers) {
+  JointModel model = single(blocks());
+  core::MemberModel& lost = model.member(MemberKind::kPruned);
+  lost.blocks.add({.order = 2, .a = {1e308, -1e308}, .drive = 1.0, .signal = 1.0});
+  lost.states = 2;
+  lost.gain = {10.0, 10.0};
+  lost.innovation_variance = 1.0;
+  lost.usable = true;
+  KalmanBank bank(bare(), 4);
+  KalmanBank alone(bare(), 4);
+  bank.use(model);
+  alone.use(single(blocks()));
+  const Signal z = simulated(blocks(), 100, 14);
+  ASSERT_GT(std::abs(z[0]), 0.2);
+  bank.step(z[0]);
+  alone.step(z[0]);
+  for (std::size_t t = 1; t < z.size(); ++t) {
+    const BankEstimates answer = bank.step(z[t]);
+    const BankEstimates expected = alone.step(z[t]);
+    EXPECT_EQ(answer.realtime.rate, expected.realtime.rate) << t;
+    EXPECT_EQ(answer.realtime.variance, expected.realtime.variance) << t;
+    EXPECT_EQ(answer.denoised.rate, t > 4 ? expected.denoised.rate : answer.denoised.rate) << t;
+  }
+}
+
+// The same where the samples that a new model is run over first are too much for one of its members.
+TEST(KalmanBank, AMemberThatIsLostInTheHandOverLeavesTheAnswerToTheOthers) {
+  JointModel both = single(blocks());
+  ASSERT_TRUE(MemberDesigner().design(blocks(), kBankNoise, both.member(MemberKind::kPruned)));
+  JointModel broken = both;
+  core::MemberModel& lost = broken.member(MemberKind::kPruned);
+  lost.blocks = {};
+  lost.blocks.add({.order = 2, .a = {1e308, -1e308}, .drive = 1.0, .signal = 1.0});
+  lost.states = 2;
+  lost.gain.fill(10.0);
+  JointOptions options = bare();
+  options.hand_over_memory = 0.75;
+  KalmanBank bank(options, 4);
+  KalmanBank alone(options, 4);
+  const Signal z = simulated(blocks(), 100, 15);
+  for (std::size_t t = 0; t < z.size(); ++t) {
+    if (t == 0) bank.use(both);
+    if (t == 0) alone.use(both);
+    if (t == 50) bank.use(broken);
+    if (t == 50) alone.use(single(blocks()));
+    EXPECT_EQ(bank.step(z[t]).denoised.rate, alone.step(z[t]).denoised.rate) << t;
+  }
+}
+
+// nu^2 / S of a million deviations is the most that counts of one sample; the mean takes a 256th of it.
+TEST(KalmanBank, TheMeanOfInnovationsCountsAMillionDeviationsAtTheMost) {
+  const JointModel model = single(blocks());
+  const double S = model.member(MemberKind::kFull).innovation_variance;
+  for (const double deviations : {1e2, 1e5, 1e6, 1e9}) {
+    KalmanBank bank(bare(), 0);
+    bank.use(model);
+    bank.step(deviations * std::sqrt(S));
+    const double square = std::min(deviations * deviations, 1e12);
+    EXPECT_NEAR(bank.normalised_innovation(), 1.0 + (square - 1.0) / 256.0, 1e-9 * square) << deviations;
+  }
+}
+
 // The scale of a model acts on what the bank was given, and on nothing else.
 TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
   const Signal z = simulated(blocks(), 500, 9);

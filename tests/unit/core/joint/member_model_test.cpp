@@ -46,5 +46,16 @@ TEST(MemberDesigner, LeavesTheMemberAloneWhereItFails) {
   EXPECT_FALSE(member.usable);
 }
 
+// What rounding leaves below zero is no variance.
+TEST(MemberModel, HasNoVarianceBelowZero) {
+  MemberModel member;
+  member.innovation_variance = 2.0;
+  member.prediction_variance = 2.0;
+  member.smoothing = {0.6, 0.6, 1.0};
+  EXPECT_NEAR(member.error_variance(0), 2.0 - 0.72, 1e-15);
+  EXPECT_NEAR(member.error_variance(1), 2.0 - 1.44, 1e-15);
+  EXPECT_EQ(member.error_variance(2), 0.0);
+}
+
 }  // namespace
 }  // namespace gyrod::core
