@@ -191,6 +191,8 @@ TEST(JointFit, AMemberThatFailsKeepsWhatItHad) {
   EXPECT_EQ(model.fallbacks, core::kMembers);
   EXPECT_TRUE(model.usable());
   for (std::size_t i = 0; i < core::kMembers; ++i) expect_same(model.members[i], before.members[i]);
+  fit.fit(window(3), core::white_noise(0.09), model, report);
+  EXPECT_EQ(model.fallbacks, 0U) << "of this window";
 }
 
 TEST(JointFit, AUsedObjectGivesTheBitsOfAFreshOne) {
