@@ -36,6 +36,7 @@ TEST(JointScale, ATrembleOfTheRateChangesNothing) {
   EXPECT_EQ(JointScale(199.7, 1024), JointScale(200.4, 1024));
   EXPECT_EQ(JointScale(119.2, 1024), JointScale(121.0, 1024));
   EXPECT_NE(JointScale(200.0, 1024), JointScale(400.0, 1024));
+  EXPECT_NEAR(JointScale(200.0, 1024).memory(1.0), std::exp2(0.75), 1e-15);
 }
 
 // Four samples at 480 Hz last as long as one at 120 Hz; half a window gives twice the models in the same time.

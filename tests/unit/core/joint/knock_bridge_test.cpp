@@ -129,5 +129,27 @@ TEST(KnockBridge, KnowsNoUnit) {
   EXPECT_EQ(small, testing::times(x, 0x1p-200));
 }
 
+// In +1, -1, .. second differences are 4 everywhere. One sample that is 1000 off makes three of them large, which five samples to either side see in their
+// means of nine.
+TEST(KnockBridge, AKnockIsAsWideAsTheMeansThatSeeIt) {
+  Signal x(200);
+  for (std::size_t n = 0; n < x.size(); ++n) x[n] = n % 2 == 0 ? 1.0 : -1.0;
+  x[100] += 1000.0;
+  Signal copy = x;
+  EXPECT_EQ(bridged(copy), 11U);
+  for (const std::size_t untouched : {94U, 106U}) EXPECT_EQ(copy[untouched], x[untouched]);
+  for (std::size_t n = 95; n <= 105; ++n) EXPECT_NEAR(copy[n], 1.0, 1e-12) << n;
+}
+
+// Nothing is known of what was before the window: what comes after the knock stands for it.
+TEST(KnockBridge, AKnockAtTheBeginningIsAsTheSampleAfterIt) {
+  Signal x = testing::white_noise(kWindow, 6);
+  for (double& value : x) value += 50.0;
+  tap(x, 0, 500.0);
+  const std::size_t count = bridged(x);
+  ASSERT_GT(count, 10U);
+  for (std::size_t n = 0; n < count; ++n) EXPECT_EQ(x[n], x[count]) << n;
+}
+
 }  // namespace
 }  // namespace gyrod

@@ -75,6 +75,26 @@ TEST(StartLevels, KnowNothingBeforeTheFirstSample) {
   EXPECT_NEAR(levels.estimate(0).variance, 0.25, 1e-8);
 }
 
+// After two samples that differ by nu, level i expects S_i = 2 + its ratio of that square, in parts of var v: all know of the first sample what v hides.
+// Its gain is (1 + ratio) / S, its likelihood S^-1/2 exp(-nu^2 / (2 S)), of which the root counts; before, all were alike. 1e-6: the 1e9 of the start.
+TEST(StartLevels, WeighTheRootsOfTheirLikelihoods) {
+  constexpr std::array<double, 4> kStepsRatios = {1e-4, 0.02, 1.0, 20.0};
+  for (const double nu : {0.0, 0.5, 2.0, 6.0}) {
+    double sum = 0.0;
+    double gain = 0.0;
+    for (const double ratio : kStepsRatios) {
+      const double S = 2.0 + ratio;
+      const double weight = std::pow(std::exp(-0.5 * nu * nu / S) / std::sqrt(S), 0.5);
+      sum += weight;
+      gain += weight * (1.0 + ratio) / S;
+    }
+    StartLevels levels;
+    levels.expect_noise(0.25);
+    run(levels, {3.0, 3.0 + 0.5 * nu});
+    EXPECT_NEAR(levels.estimate(0).rate, 3.0 + 0.5 * nu * gain / sum, 1e-6) << nu;
+  }
+}
+
 TEST(StartLevels, AverageWhatStandsStill) {
   constexpr std::size_t kSamples = 90;
   StartLevels levels;

@@ -79,5 +79,36 @@ TEST(FindTone, SeesNoneInSlowMotionOrNothing) {
   EXPECT_EQ(find_tone(std::vector<double>(20, 1.0), kSureTone).amplitude, 0.0);
 }
 
+// A line of 100 with shoulders of 20 over five bins, beside 4 below it and 16, 15, .. 1 above it, whose ninth is 9: it stands in 6. Above that are 94 and
+// ten times 14; two bins below 6 count as none. amplitude^2 / 2 is that over 512, twice.
+TEST(FindTone, IsMeasuredByWhatStandsAboveItsSurroundings) {
+  constexpr std::size_t kSize = 257;
+  constexpr std::size_t kAt = 120;
+  std::vector<double> power(kSize, 1.0);
+  std::fill_n(power.begin(), kAt - kToneReach, 4.0);
+  std::fill_n(power.begin() + kAt - kToneReach, 2 * kToneReach + 1, 20.0);
+  power[kAt] = 100.0;
+  power[kAt - kToneReach] = power[kAt + kToneReach] = 2.0;
+  for (std::size_t i = 0; i < 16; ++i) power[kAt + kToneReach + 1 + i] = 16.0 - static_cast<double>(i);
+  const Tone found = find_tone(power, 12.0);
+  EXPECT_NEAR(found.prominence, 100.0 / 6.0, 1e-12);
+  EXPECT_NEAR(found.frequency_cycles, static_cast<double>(kAt) / 512.0, 1e-12);
+  EXPECT_NEAR(found.amplitude, std::sqrt(2.0 * 2.0 * (94.0 + 10.0 * 14.0) / 512.0), 1e-12);
+}
+
+// Tones are looked for from 22 periods a transform on, and as far from the other end.
+TEST(FindTone, LooksWhereThereAreSurroundingsOnBothSides) {
+  constexpr std::size_t kSize = 257;
+  constexpr std::size_t kSides = kToneReach + 16;
+  for (std::size_t at = 0; at < kSize; ++at) {
+    std::vector<double> power(kSize, 1.0);
+    power[at] = 100.0;
+    const Tone found = find_tone(power, 12.0);
+    const bool within = at >= kSides && at + kSides < kSize;
+    EXPECT_NEAR(found.prominence, within ? 100.0 : 0.0, 1e-12) << at;
+    EXPECT_NEAR(found.frequency_cycles, within ? static_cast<double>(at) / 512.0 : 0.0, 1e-12) << at;
+  }
+}
+
 }  // namespace
 }  // namespace gyrod::core
