@@ -4,13 +4,14 @@
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
+// (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
 // that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; neither has a prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <random>
 #include <stdexcept>
 #include <string>
 
@@ -55,6 +56,20 @@ core::NoiseModel believed(const test::DriveRow& row, const Arguments& arguments)
   return core::scaled(model, number(arguments, "level", core::kNoiseMargin));
 }
 
+/// Single wrong samples of 12 standard deviations, one in so many by chance, in the noise and in what it is calibrated on.
+void add_spikes(test::DriveRow& row, double one_in) {
+  if (one_in <= 0.0) return;
+  const double size = 12.0 * std::sqrt(core::noise_variance(core::still_noise(row.still_dps).value()));
+  std::mt19937 bits(1);
+  std::uniform_real_distribution<double> chance(0.0, one_in);
+  for (std::vector<double>* series : {&row.noisy_dps, &row.still_dps}) {
+    for (double& value : *series) {
+      const double drawn = chance(bits);
+      if (drawn < 1.0) value += drawn < 0.5 ? size : -size;
+    }
+  }
+}
+
 /// The row without its first seconds.
 void begin_at(test::DriveRow& row, double begin_s) {
   const auto samples = std::min(row.noisy_dps.size(), static_cast<std::size_t>(begin_s * row.rate_hz));
@@ -89,6 +104,7 @@ int study(const Arguments& arguments) {
   const test::JointSetting setting = setting_of(arguments);
   for (auto& row : rows_of(motion, choice)) {
     if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
+    add_spikes(row, number(arguments, "spikes", 0));
     const core::NoiseModel noise = believed(row, arguments);
     begin_at(row, number(arguments, "begin", 0));
     if (motion != "hand") test::resample(row, number(arguments, "rate", 120));

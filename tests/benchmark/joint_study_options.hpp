@@ -74,6 +74,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("residual_limit", options.residual_limit);
   set("residual_mean_limit", options.residual_mean_limit);
   set("residual_memory", options.residual_memory);
+  set("lone_limit", options.lone_limit);
   set("knock_ratio", options.knock_ratio);
   set("knock_tail", options.knock_tail);
   set("knock_share", options.knock_share);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -9,8 +10,16 @@
 #include "core/joint/kalman_bank.hpp"
 
 namespace gyrod::core {
+namespace {
 
-/// Of x[t - lag], t the newest sample, without the slow correction.
+/// Residuals whose square is more than this many times the noise's variance are compared with those beside them.
+constexpr double kMuch = 4.0;
+/// A sample that has more weight than this in its own estimate is hardly smoothed: what is wrong with it cannot be told from what lies beside it.
+constexpr double kMostOwn = 0.25;
+
+}  // namespace
+
+/// Of x[t - lag], t the newest sample, without the slow correction; from kMaxLag samples after it at the most.
 BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
   if (!fitted_) return start_.estimate(lag);
   std::array<double, kMembers> estimates{};
@@ -27,7 +36,8 @@ BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (members_[i].weight == 0.0) continue;
     const double apart = estimates[i] - mixture.rate;
-    mixture.variance += members_[i].weight * (error_variance_[i][lag] * unit_ + apart * apart);
+    mixture.variance +=
+        members_[i].weight * (error_variance_[i][std::min(lag, kMaxLag)] * unit_ + apart * apart);
   }
   mixture.variance = std::min(mixture.variance, std::numeric_limits<double>::max());
   return mixture;
@@ -38,7 +48,8 @@ double KalmanBank::member_estimate(std::size_t index, std::size_t lag) const noe
   const auto& g = model_.members[index].smoothing;
   const std::uint64_t then = count_ - 1 - lag;
   double estimate = model_.mean + member.prediction[then % kRing];
-  for (std::size_t k = 0; k <= lag; ++k) estimate += g[k] * member.innovation[(then + k) % kRing];
+  for (std::size_t k = 0; k <= std::min(lag, kMaxLag); ++k)
+    estimate += g[k] * member.innovation[(then + k) % kRing];
   return estimate;
 }
 
@@ -47,7 +58,9 @@ BankEstimate KalmanBank::held(std::size_t age) const noexcept {
   BankEstimate estimate = combine(age);
   estimate.rate += denoised_correction_.step;
   ResidualCheck check = denoised_correction_.residual;
-  estimate = check.apply(sample_at(count_ - 1 - age), estimate, model_.residual_variance * unit_, options_);
+  const double sample = sample_at(count_ - 1 - age);
+  estimate = check.apply(sample, estimate, model_.residual_variance * unit_,
+                         beside(age, sample - estimate.rate, denoised_correction_.step), options_);
   estimate.rate += denoised_correction_.slow.paid() + denoised_correction_.gain.paid();
   estimate.variance = widened(estimate.variance);
   return estimate;
@@ -63,7 +76,8 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
                                              .settled = expected_variance(kMaxLag) / unwanted,
                                              .moving = moving_}
                                      : Trust{};
-  answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_, options_);
+  answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_,
+                                     beside(lag, sample - answer.rate, correction.step), options_);
   std::array<double, kMaxLag> newer{};
   for (std::size_t k = 0; k < lag; ++k) newer[k] = residuals_[(count_ - lag + k) % kRing];
   if (lag == 0) residuals_[(count_ - 1) % kRing] = sample - answer.rate;
@@ -71,6 +85,28 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
       correction.slow.apply(sample, answer.rate, trust, options_, model_.scale, std::span(newer).first(lag));
   if (lag > 0) answer.rate = correction.gain.apply(sample, answer.rate, unwanted, options_, model_.scale);
   answer.variance = widened(answer.variance);
+}
+
+/// Largest square of what estimates take off the two samples before and after x[t - lag], if that is much. A sample that is wrong by d pulls
+/// estimates beside it by h d / (1 - h) at the most, h the weight that it has in its own: of what is off to the other side that is left out.
+double KalmanBank::beside(std::size_t lag, double residual, double step) const noexcept {
+  constexpr std::size_t kReach = 2;
+  const double variance = model_.residual_variance * unit_;
+  if (!fitted_ || lag == 0 || !(residual * residual > kMuch * variance))
+    return std::numeric_limits<double>::infinity();
+  const double own = expected_variance(lag) / variance;
+  if (!(own < kMostOwn)) return std::numeric_limits<double>::infinity();
+  const double pull = own / (1.0 - own) * std::abs(residual);
+  double largest = 0.0;
+  const std::size_t newest = lag - std::min(lag, kReach);
+  const std::size_t oldest = std::min(lag + kReach, static_cast<std::size_t>(count_ - 1));
+  for (std::size_t other = newest; other <= oldest; ++other) {
+    if (other == lag) continue;
+    const double off = sample_at(count_ - 1 - other) - combine(other).rate - step;
+    const bool same_side = (off > 0.0) == (residual > 0.0);
+    largest = std::max(largest, same_side ? std::abs(off) : std::abs(off) - pull);
+  }
+  return largest * largest;
 }
 
 /// P_L of the members, as far as they agree.

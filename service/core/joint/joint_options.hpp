@@ -140,7 +140,10 @@ struct JointOptions {
   /// is more goes back. Range 1..1e12.
   double residual_limit = 25.0;
   double residual_mean_limit = 2.0;
-  /// Samples of that mean: enough for it to stay below 2 by chance (a standard deviation of 0.25), few enough for a knock. Range 1..1e9.
+  /// A sample whose residual's square is more than this many times that of all about it is wrong by itself. Range 1..1e12.
+  double lone_limit = 9.0;
+  /// Samples of that mean: enough for it to stay below 2 in all but a thousandth of the samples by chance (a standard deviation of 0.25), few
+  /// enough for a knock. Range 1..1e9.
   double residual_memory = 16.0;
   /// A window's samples are a knock, and left out of its fit, where their squared second differences, smoothed, are above knock_tail times
   /// the median and reach knock_ratio times it, and where knocks are at most knock_share of the window. Range 1..1e12; 1..1e12; 0..1.

@@ -83,6 +83,7 @@ class KalmanBank {
   };
 
   void correct(double sample, std::size_t lag, Correction& correction, BankEstimate& answer) noexcept;
+  [[nodiscard]] double beside(std::size_t lag, double residual, double step) const noexcept;
   [[nodiscard]] double expected_variance(std::size_t lag) const noexcept;
   [[nodiscard]] double widened(double variance) const noexcept;
   void scale() noexcept;

@@ -14,10 +14,11 @@ constexpr double kMostToMean = 100.0;
 }  // namespace
 
 BankEstimate ResidualCheck::apply(double sample, BankEstimate estimate, double expected_variance,
-                                  const JointOptions& options) noexcept {
+                                  double beside, const JointOptions& options) noexcept {
   if (!(expected_variance > 0.0) || !std::isfinite(expected_variance)) return estimate;
   const double residual = sample - estimate.rate;
-  const double square = std::min(residual * residual / expected_variance, kMostSquare);
+  const double most = std::max(options.lone_limit * beside / expected_variance, 1.0);
+  const double square = std::min({residual * residual / expected_variance, most, kMostSquare});
   mean_square_ += (std::min(square, kMostToMean) - mean_square_) / options.residual_memory;
   const double alone = square > options.residual_limit ? square : 0.0;
   const double lately = mean_square_ > options.residual_mean_limit ? mean_square_ : 0.0;

@@ -11,14 +11,17 @@ namespace gyrod::core {
 /// what came before and after it. There the sample counts by as much as e is the worse of the two:
 ///   e + w d,   w = max(0, 1 - residual_limit R / d^2, 1 - residual_mean_limit / m),   m <- m + (d^2 / R - m) / residual_memory,
 /// which is never farther from the sample than sqrt(residual_limit R), and the nearer the farther off e is.
+/// A sample that is wrong by itself is no knock: motion lasts. Where the samples about it are known, d^2 counts lone_limit times the largest of
+/// theirs at the most, and R at the least.
 /// A plain value; finite for finite arguments.
 class ResidualCheck {
  public:
   /// @param expected_variance R, and the variance of what else the estimate leaves out on purpose; 0 while unknown, infinite where
   /// anything may be left out: then the estimate stays as it is
+  /// @param beside largest d^2 of the samples about it; infinite where these are not known
   /// @return e + w d; where w > 0, with a variance that knows of both
   [[nodiscard]] BankEstimate apply(double sample, BankEstimate estimate, double expected_variance,
-                                   const JointOptions& options) noexcept;
+                                   double beside, const JointOptions& options) noexcept;
 
  private:
   double mean_square_ = 1.0;  ///< m

@@ -22,8 +22,12 @@ using testing::Signal;
 constexpr double kNoise = 0.25;  // a deviation of 0.5
 constexpr BankEstimate kEstimate{.rate = 3.0, .variance = 0.01};
 
-BankEstimate seen(ResidualCheck& check, double deviations) {
-  return check.apply(kEstimate.rate + deviations * std::sqrt(kNoise), kEstimate, kNoise, {});
+constexpr double kNotKnown = std::numeric_limits<double>::infinity();
+
+/// @param beside of the samples about it, deviations
+BankEstimate seen(ResidualCheck& check, double deviations, double beside = kNotKnown) {
+  const double sample = kEstimate.rate + deviations * std::sqrt(kNoise);
+  return check.apply(sample, kEstimate, kNoise, beside * beside * kNoise, {});
 }
 
 TEST(ResidualCheck, LeavesAloneWhatNoiseCanBe) {
@@ -41,6 +45,19 @@ TEST(ResidualCheck, GivesBackWhatItCannotBe) {
   const BankEstimate answer = seen(check, 10.0);
   EXPECT_NEAR(answer.rate, kEstimate.rate + 0.75 * 5.0, 1e-12);
   EXPECT_NEAR(answer.variance, kNoise * (0.25 * 0.25 * 99.0 + 0.75 * 0.75), 1e-12);
+}
+
+// Of 10 deviations beside 3 deviations (3 * 3 = 9 is less than 10) count 9: w = 1 - 25 / 81. Beside one deviation they count 3, which noise can be, and
+// beside none 1; not in the mean, either.
+TEST(ResidualCheck, DoesNotGiveBackASampleThatIsWrongByItself) {
+  ResidualCheck check;
+  EXPECT_NEAR(seen(check, 10.0, 3.0).rate, kEstimate.rate + (1.0 - 25.0 / 81.0) * 5.0, 1e-12);
+  for (const double beside : {1.0, 0.0}) {
+    ResidualCheck fresh;
+    EXPECT_EQ(seen(fresh, 1e3, beside).rate, kEstimate.rate);
+    EXPECT_EQ(seen(fresh, 1e3, beside).variance, kEstimate.variance);
+    EXPECT_EQ(seen(fresh, 1.0).rate, kEstimate.rate) << "nor does it raise the mean beyond 2";
+  }
 }
 
 TEST(ResidualCheck, GivesBackMoreTheFartherOffItIs) {
@@ -74,7 +91,7 @@ TEST(ResidualCheck, ForgetsAKnock) {
 TEST(ResidualCheck, DoesNothingWhereAnythingMayBeLeftOut) {
   ResidualCheck check;
   for (const double variance : {0.0, std::numeric_limits<double>::infinity()}) {
-    EXPECT_EQ(check.apply(1e6, kEstimate, variance, {}).rate, kEstimate.rate);
+    EXPECT_EQ(check.apply(1e6, kEstimate, variance, kNotKnown, {}).rate, kEstimate.rate);
   }
 }
 
@@ -82,7 +99,7 @@ TEST(ResidualCheck, StaysFinite) {
   ResidualCheck check;
   for (const double sample : std::array{1e300, -1e300, 0.0, 1e-300}) {
     for (const double variance : {1e-300, 1.0, 1e300}) {
-      const BankEstimate answer = check.apply(sample, kEstimate, variance, {});
+      const BankEstimate answer = check.apply(sample, kEstimate, variance, kNotKnown, {});
       EXPECT_TRUE(std::isfinite(answer.rate)) << sample << ' ' << variance;
       EXPECT_FALSE(std::isnan(answer.variance)) << sample << ' ' << variance;
     }
