@@ -74,23 +74,36 @@ TEST(EngineWithModels, TellEachAxisTheLeastNoiseThatTheOthersHadAWindowBefore) {
   EXPECT_EQ(reports[1].axis[2].mean, 31.0);
 }
 
+/// An engine that has taken 40 samples, and five seconds later its worker still has the first window.
+struct LateEngine {
+  explicit LateEngine(std::size_t widest_hop)
+      : engine(options(widest_hop), testing::last_sample_method([this] { gate.pass(); }), sink,
+               [this] { return now.load(); }) {
+    gate.set_open(false);
+    engine.push("imu", counting_samples(40));
+    gate.wait_for_entry();
+    now = 5.0;
+  }
+  static EngineOptions options(std::size_t widest_hop) {
+    EngineOptions options = small_options(1);
+    options.max_delay_s = 1.0;
+    options.max_hop_samples = widest_hop;
+    return options;
+  }
+
+  RecordingSink sink;
+  Gatekeeper gate;
+  std::atomic<double> now{0.0};
+  Engine engine;
+};
+
 /// The widest hop; 32 is the hop itself, so that overload step 1 shows in the models' age alone.
 class EngineWithLateModels : public ::testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(WidestHop, EngineWithLateModels, ::testing::Values(32, 64));
 
 TEST_P(EngineWithLateModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooLate) {
-  RecordingSink sink;
-  Gatekeeper gate;
-  std::atomic<double> now{0.0};
-  EngineOptions options = small_options(1);
-  options.max_delay_s = 1.0;
-  options.max_hop_samples = GetParam();
-  Engine engine(options, testing::last_sample_method([&gate] { gate.pass(); }), sink,
-                [&now] { return now.load(); });
-  gate.set_open(false);
-  engine.push("imu", counting_samples(40));
-  gate.wait_for_entry();
-  now = 5.0;
+  LateEngine late(GetParam());
+  auto& [sink, gate, now, engine] = late;
   engine.push("imu", counting_samples(100, 40));  // would wait for ever if it waited for the worker
   const auto output = sink.samples("imu");
   ASSERT_EQ(output.size(), 124U);
@@ -110,18 +123,8 @@ TEST_P(EngineWithLateModels, KeepsOlderModelsAndDoesNotWaitWhenTheSlowLoopIsTooL
 
 // The first samples of a stretch have no older models: there are none of it yet.
 TEST(EngineWithLateModels, FlagsNoHopOfTheStretchAfterTheOneInWhichTheyWereLate) {
-  RecordingSink sink;
-  Gatekeeper gate;
-  std::atomic<double> now{0.0};
-  EngineOptions options = small_options(1);
-  options.max_delay_s = 1.0;
-  options.max_hop_samples = options.hop_samples;
-  Engine engine(options, testing::last_sample_method([&gate] { gate.pass(); }), sink,
-                [&now] { return now.load(); });
-  gate.set_open(false);
-  engine.push("imu", counting_samples(40));
-  gate.wait_for_entry();
-  now = 5.0;
+  LateEngine late(small_options(1).hop_samples);
+  auto& [sink, gate, now, engine] = late;
   engine.push("imu", counting_samples(60, 40));
   EXPECT_TRUE(has_flag(sink.realtime("imu").back(), SampleFlag::kHopWidened));
   gate.set_open(true);

@@ -25,6 +25,15 @@ Axes moving(std::size_t size, unsigned seed) {
   return axes;
 }
 
+/// At rest, moving for 2000 samples or so many, and at rest again.
+Axes moved_between(std::size_t before, std::size_t after, double std_before, double std_after,
+                   std::size_t moved = 2000) {
+  Axes axes = testing::still_axes(before, std_before, 1);
+  append(axes, moving(moved, 2));
+  append(axes, testing::still_axes(after, std_after, 3));
+  return axes;
+}
+
 TEST(StillSearch, FindsAWholeStillRecording) {
   const Axes axes = testing::still_axes(6050, 0.35, 1);
   const StillSearch found = find_still(input_of(axes), 100.0);
@@ -35,9 +44,7 @@ TEST(StillSearch, FindsAWholeStillRecording) {
 }
 
 TEST(StillSearch, FindsTheStretchesBetweenTheMotion) {
-  Axes axes = testing::still_axes(3000, 0.35, 1);
-  append(axes, moving(3000, 2));
-  append(axes, testing::still_axes(4000, 0.35, 3));
+  const Axes axes = moved_between(3000, 4000, 0.35, 0.35, 3000);
   const StillSearch found = find_still(input_of(axes), 100.0);
   ASSERT_EQ(found.stretches.size(), 2U);
   EXPECT_EQ(found.stretches[0].first, 0U);
@@ -59,9 +66,7 @@ TEST(StillSearch, LeavesOutWhatIsLouderThanTheQuietest) {
 // Up to 1.5 times the variance is one noise; a mean over half a minute knows its own to 3 %.
 TEST(StillSearch, KeepsWhatIsLittleLouderThanTheQuietest) {
   for (const double ratio : {1.35, 1.65}) {
-    Axes axes = testing::still_axes(3000, 0.3, 1);
-    append(axes, moving(2000, 2));
-    append(axes, testing::still_axes(3000, 0.3 * std::sqrt(ratio), 3));
+    const Axes axes = moved_between(3000, 3000, 0.3, 0.3 * std::sqrt(ratio));
     const StillSearch found = find_still(input_of(axes), 100.0);
     EXPECT_EQ(found.stretches.size(), ratio < 1.5 ? 2U : 1U) << ratio;
     EXPECT_EQ(found.louder > 0, ratio > 1.5) << ratio;
@@ -70,9 +75,7 @@ TEST(StillSearch, KeepsWhatIsLittleLouderThanTheQuietest) {
 
 // Of one window or of twenty, one noise has one variance.
 TEST(StillSearch, KeepsLongStretchesBesideAShortOne) {
-  Axes axes = testing::still_axes(850, 0.3, 1);
-  append(axes, moving(2000, 2));
-  append(axes, testing::still_axes(3000, 0.3, 3));
+  const Axes axes = moved_between(850, 3000, 0.3, 0.3);
   const StillSearch found = find_still(input_of(axes), 100.0);
   ASSERT_EQ(found.stretches.size(), 2U);
   EXPECT_EQ(found.stretches[0].size, 800U);
