@@ -5,7 +5,7 @@
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
 // (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
-// that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; neither has a prototype to compare with); and core::JointOptions' members.
+// that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; these have no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -86,7 +86,8 @@ std::vector<test::DriveRow> rows_of(const std::string& motion, const test::Noise
   if (motion == "car") return test::drive_rows(noise);
   if (motion == "hand") return test::hand_rows(noise);
   if (motion == "smooth") return test::smooth_rows(noise);
-  throw std::runtime_error("motion=" + motion + ": expected car, hand or smooth");
+  if (motion == "simulated") return test::simulated_rows(noise);
+  throw std::runtime_error("motion=" + motion + ": expected car, hand, smooth or simulated");
 }
 
 int study(const Arguments& arguments) {
@@ -107,7 +108,7 @@ int study(const Arguments& arguments) {
     add_spikes(row, number(arguments, "spikes", 0));
     const core::NoiseModel noise = believed(row, arguments);
     begin_at(row, number(arguments, "begin", 0));
-    if (motion != "hand") test::resample(row, number(arguments, "rate", 120));
+    if (motion == "car" || motion == "smooth") test::resample(row, number(arguments, "rate", 120));
     const test::JointFigures figures = test::joint_figures(row, noise, setting);
     std::printf("%-12s ", row.name.c_str());
     print("", figures.rmse);

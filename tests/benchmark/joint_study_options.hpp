@@ -28,6 +28,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("slow_period_samples", options.slow_period_samples);
   set("tapers", options.tapers);
   set("recency", options.recency);
+  set("pruned_recency", options.pruned_recency);
   set("full_iterations", options.full_iterations);
   set("pruned_iterations", options.pruned_iterations);
   set("shrinkage", options.shrinkage);
@@ -47,6 +48,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("switching_rate", options.switching_rate);
   set("likelihood_power", options.likelihood_power);
   set("most_evidence", options.most_evidence);
+  set("hindsight_rate", options.hindsight_rate);
   set("hand_over_samples", options.hand_over_samples);
   set("correction_rate", options.correction_rate);
   set("still_correction", options.still_correction);

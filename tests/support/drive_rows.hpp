@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/signal/interpolation.hpp"
+#include "core/simulation/drive_motion.hpp"
 #include "files/record.hpp"
 #include "support/data_folder.hpp"
 
@@ -214,6 +215,28 @@ inline std::vector<DriveRow> smooth_rows(const NoiseChoice& noise = {}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto truth = smooth_motion(axis, kRateHz, 12'000);
       rows.push_back(detail::noisy_row("smooth", axis, kRateHz, std::move(truth), still, noise, scale));
+    }
+  }
+  return rows;
+}
+
+/// Simulated drives, seeds 1 to 6, 100 Hz, 90 s: 54 rows of three axes and noise scaled by 1, 0.3 and 3. @pre the noise's file is there
+inline std::vector<DriveRow> simulated_rows(const NoiseChoice& noise = {}) {
+  constexpr double kRateHz = 100.0;
+  const std::vector<double> still = detail::still_dps(noise, kRateHz);
+  std::vector<DriveRow> rows;
+  for (const double scale : {1.0, 0.3, 3.0}) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      core::DriveMotion motion({}, kRateHz, seed);
+      std::array<std::vector<double>, 3> truth;
+      for (int n = 0; n < 9000; ++n) {
+        const auto rate = motion.next();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          truth[axis].push_back(rate[axis] * 180.0 / std::numbers::pi);
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        rows.push_back(detail::noisy_row("sim" + std::to_string(seed), axis, kRateHz, std::move(truth[axis]),
+                                         still, noise, scale));
     }
   }
   return rows;

@@ -27,17 +27,17 @@ BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
   // Differences to it are weighed: where all agree, that is the answer to the last bit.
   std::optional<double> first;
   for (std::size_t i = 0; i < kMembers; ++i) {
-    if (members_[i].weight == 0.0) continue;
+    if (weight_at(i, lag) == 0.0) continue;
     estimates[i] = member_estimate(i, lag);
     if (!first) first = estimates[i];
-    mixture.rate += members_[i].weight * (estimates[i] - *first);
+    mixture.rate += weight_at(i, lag) * (estimates[i] - *first);
   }
   mixture.rate += first.value_or(0.0);
   for (std::size_t i = 0; i < kMembers; ++i) {
-    if (members_[i].weight == 0.0) continue;
+    if (weight_at(i, lag) == 0.0) continue;
     const double apart = estimates[i] - mixture.rate;
     mixture.variance +=
-        members_[i].weight * (error_variance_[i][std::min(lag, kMaxLag)] * unit_ + apart * apart);
+        weight_at(i, lag) * (error_variance_[i][std::min(lag, kMaxLag)] * unit_ + apart * apart);
   }
   mixture.variance = std::min(mixture.variance, std::numeric_limits<double>::max());
   return mixture;

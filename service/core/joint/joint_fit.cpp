@@ -4,13 +4,11 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "core/denoise/noise_line.hpp"
-#include "core/joint/noise_peak.hpp"
 #include "core/signal/moments.hpp"
 #include "core/signal/notch.hpp"
 
@@ -22,14 +20,6 @@ constexpr double kOtherNoise = 0.5;
 /// What a mode's drive is multiplied by at the start where its IMF holds no more than noise.
 constexpr double kLeastShare = 0.05;
 
-FilterBlock colour_block(const NoiseModel& noise) noexcept {
-  FilterBlock block;
-  block.order = noise.colour_order;
-  std::ranges::copy(noise.colour, block.a.begin());
-  block.drive = noise.colour_variance;
-  return block;
-}
-
 }  // namespace
 
 JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
@@ -37,12 +27,14 @@ JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
       max_samples_(max_samples),
       emd_(max_samples, options.emd),
       tapers_(max_samples, options.tapers, options.recency),
+      pruned_tapers_(max_samples, options.tapers, options.pruned_recency),
       whittle_(tapers_.transform_samples(), options.bandwidth_cycles),
       knocks_(max_samples),
       centred_(max_samples),
       imf_(max_samples),
       slow_(max_samples),
       periodogram_(tapers_.bins()),
+      pruned_periodogram_(tapers_.bins()),
       whitened_(tapers_.bins()) {
   if (static_cast<std::size_t>(options.emd.max_imfs) > kMaxImfs) {
     throw std::invalid_argument("IMF limit is " + std::to_string(options.emd.max_imfs) +
@@ -54,6 +46,7 @@ JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
 void JointFit::set_sample_rate(double sample_rate_hz) noexcept {
   scale_ = JointScale(sample_rate_hz, max_samples_);
   tapers_.set_recency(scale_.recency(options_.recency));
+  pruned_tapers_.set_recency(scale_.recency(options_.pruned_recency));
   whittle_.set_shrinkage(scale_.shrinkage(options_.shrinkage));
 }
 
@@ -68,6 +61,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   if (std::ranges::all_of(centred_, [](double value) { return value == 0.0; })) return;
   knocks_.apply(centred_, options_);
   tapers_.prewhitened_spectrum(centred_, periodogram_);
+  pruned_tapers_.prewhitened_spectrum(centred_, pruned_periodogram_);
   judge_noise(noise, model, report);
   const Tone tone = find_motion_tone();
   if (tone.prominence >= kSureTone) {
@@ -78,13 +72,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   if (line_.power > 0.0) notch(centred_, line_.cycles, line_.half_width);
   decompose(report);
   start_line(tone);
-  whittle_.iterate(full_, options_.pruned_iterations);
-  pruned_ = full_;
-  whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
-  whittle_.prune(pruned_, options_.prune_gain);
-  whittle_.iterate(pruned_, options_.pruned_iterations);
-  share_out(full_);
-  share_out(pruned_);
+  fit_modes();
   follow_line(model.line, window.size());
   model.mean = report.mean;
   model.scale = scale_;
@@ -197,77 +185,20 @@ void JointFit::start_line(const Tone& tone) noexcept {
   if (mode.drive > 0.0) full_.add(mode);
 }
 
-void JointFit::design(JointModel& model) noexcept {
-  model.fallbacks = 0;
-  model.noise_variance = seen_noise();
-  const bool band = max_signal_cycles_ < 0.5;
-  const double left_out_variance = unit_ * left_out();
-  model.beyond_band_variance = band ? left_out_variance : 0.0;
-  model.residual_variance = model.noise_variance + left_out_variance;
-  if (band) model.residual_variance = std::numeric_limits<double>::infinity();
-  make(blocks_of(full_, 1.0), MemberKind::kFull, model);
-  make(blocks_of(pruned_, 1.0), MemberKind::kPruned, model);
-  const double drive =
-      scale_.agile_drive(options_.agile_drive) * model.member(MemberKind::kFull).innovation_variance / unit_;
-  const double rho = options_.level_pole;
-  const double d = options_.slope_pole;
-  FilterBlock agile{.order = 1, .a = {rho}, .drive = drive, .signal = 1.0};
-  make(with_agile(agile), MemberKind::kLevel, model);
-  agile.order = 2;
-  agile.a = {rho + d, -rho * d};
-  make(with_agile(agile), MemberKind::kSlope, model);
-  make(blocks_of(full_, options_.drive_ratio), MemberKind::kRough, model);
-  const double less = 1.0 / options_.drive_ratio;
-  make(blocks_of(full_, less), MemberKind::kCalm, model);
-  make(blocks_of(full_, less * less), MemberKind::kStill, model);
-}
-
-/// A member in the data's unit. One that cannot be made keeps what it was.
-void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept {
-  MemberModel& member = model.member(kind);
-  if (!designer_.design(blocks, noise_.white_variance, member)) {
-    ++model.fallbacks;
-    return;
-  }
-  member.innovation_variance *= unit_;
-  member.prediction_variance *= unit_;
-}
-
-/// The modes, all but the slow one and a tone driven drive_ratio times as hard, with their roots pulled in; and the noise's colour and line.
-BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
-  BlockSet set;
-  for (const SpectralMode& mode : modes.modes()) {
-    const double harder = mode.slow || mode.line ? 1.0 : drive_ratio;
-    FilterBlock block{.order = kModeOrder, .drive = mode.drive * harder, .signal = mode.share};
-    if (mode.share > 0.0 && mode.share < 1.0)
-      block.apart = mode.share * (1.0 - mode.share) * harder * whittle_.weigh(mode).power;
-    double factor = 1.0;
-    for (std::size_t i = 0; i < kModeOrder; ++i) {
-      factor *= options_.pole_factor;
-      block.a[i] = mode.a[i] * factor;
-    }
-    set.add(block);
-  }
-  if (noise_.colour_order > 0) set.add(colour_block(noise_));
-  if (line_.power > 0.0)
-    set.add({.order = 2, .a = {line_.mode.a[0], line_.mode.a[1]}, .drive = line_.mode.drive});
-  return set;
-}
-
-/// What lies above the signal band is no motion, nor is what the noise's own line has left in modes beside it.
-void JointFit::share_out(ModeSet& modes) noexcept {
-  if (max_signal_cycles_ >= 0.5 && line_.power == 0.0) return;
-  std::array<ModeNearLine, kMaxModes> candidates{};
-  std::size_t count = 0;
-  for (SpectralMode& mode : modes.modes()) {
-    if (mode.slow) continue;
-    const auto [centre_cycles, power] = whittle_.weigh(mode);
-    if (centre_cycles > max_signal_cycles_)
-      mode.share = 0.0;
-    else if (power > 0.0 && line_.reaches(centre_cycles, options_.line))
-      candidates[count++] = {&mode, power};
-  }
-  share_with_line(line_.power, std::span(candidates).first(count));
+/// The full set in the eyes of the tapers that look at the newest samples most, the pruned one in the eyes of the others. The first is left in
+/// whittle_.
+void JointFit::fit_modes() noexcept {
+  whittle_.iterate(full_, options_.pruned_iterations);
+  pruned_ = full_;
+  for (double& power : pruned_periodogram_) power /= unit_;
+  whittle_.observe(pruned_periodogram_);
+  whittle_.iterate(pruned_, options_.pruned_iterations);
+  whittle_.prune(pruned_, options_.prune_gain);
+  whittle_.iterate(pruned_, options_.pruned_iterations);
+  whittle_.observe(periodogram_);
+  whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
+  share_out(full_);
+  share_out(pruned_);
 }
 
 void JointFit::follow_line(LineTracker& tracker, std::size_t samples) noexcept {
@@ -279,21 +210,6 @@ void JointFit::follow_line(LineTracker& tracker, std::size_t samples) noexcept {
                    .power = line_.power,
                    .share = new_share()},
                   options_.line);
-}
-
-/// Variance of what is left out of the modes.
-double JointFit::left_out() noexcept {
-  double sum = 0.0;
-  for (const SpectralMode& mode : full_.modes()) {
-    if (mode.share < 1.0) sum += (1.0 - mode.share) * whittle_.weigh(mode).power;
-  }
-  return sum;
-}
-
-BlockSet JointFit::with_agile(const FilterBlock& agile) noexcept {
-  BlockSet set = blocks_of(pruned_, 1.0);
-  set.add(agile);
-  return set;
 }
 
 }  // namespace gyrod::core

@@ -60,6 +60,7 @@ class JointFit {
   void describe(std::span<const double> imf, WindowReport& report) const noexcept;
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
   void start_line(const Tone& tone) noexcept;
+  void fit_modes() noexcept;
   void design(JointModel& model) noexcept;
   void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
@@ -78,6 +79,7 @@ class JointFit {
   std::size_t max_samples_;
   Emd emd_;
   RecencyTapers tapers_;
+  RecencyTapers pruned_tapers_;
   WhittleFit whittle_;
   MemberDesigner designer_;
   KnockBridge knocks_;
@@ -85,6 +87,7 @@ class JointFit {
   std::vector<double> imf_;
   std::vector<double> slow_;
   std::vector<double> periodogram_;
+  std::vector<double> pruned_periodogram_;  ///< by pruned_tapers_
   std::vector<double> whitened_;
   NoiseModel noise_;   ///< of this window but for its line, in parts of unit_
   NoiseLine line_;     ///< of this window, in parts of unit_; power 0 where there is none

@@ -47,6 +47,8 @@ struct JointOptions {
   std::size_t tapers = 2;
   /// How strongly the tapers look at the newest samples; 0 looks at all alike. Range 0..20.
   double recency = 2.5;
+  /// The same of the pruned set, which answers where the window is all alike, and then knows slow motion better from all of it. Range 0..20.
+  double pruned_recency = 0.5;
   /// Iterations of the EM fit: of the full set of modes, and of the pruned set before and after pruning. Range 1..100.
   int full_iterations = 20;
   int pruned_iterations = 5;
@@ -84,6 +86,8 @@ struct JointOptions {
   /// Most that one sample takes off the logarithm of a member's weight, beside the best one's. In a shock all members are far off, and the
   /// one whose prediction the motion happens to cross would answer for all that was. Range 0..1e12.
   double most_evidence = 2.0;
+  /// Answers with look-ahead are weighed by hindsight, too (KalmanBank): the same as switching_rate of these weights. Range 0..1.
+  double hindsight_rate = 0.001;
   /// What the bank's variance is multiplied by. It knows how well the best member does, and not that every member is a little wrong: its error
   /// squared is 1.13 to 1.21 times its variance, in the geometric mean of 18 rows, with six stretches of noise. Range 1..10.
   double variance_factor = 1.17;
@@ -113,7 +117,7 @@ struct JointOptions {
   /// The same of answers with look-ahead, which may be given back more: this much of the ratio's fourth power, and up to which rate. Range 0..1e6;
   /// 0..1.
   double late_steady_correction = 700.0;
-  double most_late_steady_correction = 0.06;
+  double most_late_steady_correction = 0.035;
   /// What answers with look-ahead miss shows in newer samples, too: the residual k samples later counts by residual_weight
   /// (1 - residual_decay rate)^k. In part, as it is that of an estimate without look-ahead, which misses more; and the less, the faster the
   /// correction is anyway. Range 0..1; 1..1e9.
@@ -176,6 +180,8 @@ class JointScale {
   [[nodiscard]] double forgetting(double share) const noexcept { return share / shorter_; }
   /// samples * faster: the same seconds.
   [[nodiscard]] double memory(double samples) const noexcept { return samples * faster_; }
+  /// rate / faster: of what is owed the same part in the same seconds.
+  [[nodiscard]] double most_correction(double rate) const noexcept { return rate / faster_; }
   /// rate * fewer / faster, at most 0.1: the same seconds; and it makes up for the window's mean, which wanders faster in a shorter window.
   [[nodiscard]] double correction_rate(double rate) const noexcept;
 

@@ -19,7 +19,10 @@ bool has_member(const JointModel& model) noexcept {
 }  // namespace
 
 KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
-    : options_(options), lag_(lag), history_(std::max(options.hand_over_samples, kRing)) {
+    : options_(options),
+      lag_(lag),
+      hindsight_roots_(roots_at(lag)),
+      history_(std::max(options.hand_over_samples, kRing)) {
   assert(lag <= kMaxLag && options.hand_over_samples <= kMaxHandOver);
   const double agile = std::exp(options.agile_log_prior);
   const double drive = std::exp(options.drive_log_prior);
@@ -51,7 +54,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
   unit_ = 1.0;
   if (!fitted_) {
     fitted_ = true;
-    for (Member& member : members_) member.weight = 0.0;
+    for (Member& member : members_) member.weight = member.hindsight = 0.0;
   }
   const std::uint64_t begin = count_ - std::min<std::uint64_t>(count_, options_.hand_over_samples);
   for (std::size_t i = 0; i < kMembers; ++i) {
@@ -60,6 +63,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
     for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
       error_variance_[i][lag] = model_.members[i].error_variance(lag);
     }
+    members_[i].leverage = model_.members[i].leverage(lag_);
     for (std::uint64_t time = begin; time < count_; ++time) predict_and_update(i, sample_at(time), time);
     if (count_ > begin && !std::isfinite(members_[i].innovation[(count_ - 1) % kRing])) {
       model_.members[i].usable = false;
@@ -75,6 +79,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
 /// What the model's rate and window make of the options.
 void KalmanBank::scale() noexcept {
   switching_rate_ = model_.scale.switching_rate(options_.switching_rate);
+  hindsight_rate_ = model_.scale.switching_rate(options_.hindsight_rate);
   fit_memory_ = model_.scale.memory(kFitMemory);
 }
 
@@ -92,6 +97,7 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   if (!std::isfinite(answer.realtime.rate)) return start_anew(sample);
   answer.denoised = answer.realtime;
   if (count_ <= lag_) return answer;
+  if (fitted_) look_back();
   answer.denoised = combine(lag_);
   correct(sample_at(count_ - 1 - lag_), lag_, denoised_correction_, answer.denoised);
   return std::isfinite(answer.denoised.rate) ? answer : start_anew(sample);
@@ -165,27 +171,34 @@ void KalmanBank::predict_and_update(std::size_t index, double sample, std::uint6
   for (std::size_t i = 0; i < model.states; ++i) member.x[i] += model.gain[i] * nu;
   member.innovation[time % kRing] = nu;
   member.prediction[time % kRing] = signal;
+  member.whole[time % kRing] = sum;
 }
 
 /// Which members can answer may have changed: weights are what the others had, or, where they had none, the prior.
 void KalmanBank::settle_weights() noexcept {
   prior_sum_ = 0.0;
   double sum = 0.0;
+  double hindsight = 0.0;
   for (std::size_t i = 0; i < kMembers; ++i) {
     Member& member = members_[i];
     if (!model_.members[i].usable) {
-      member.weight = 0.0;
+      member.weight = member.hindsight = 0.0;
       continue;
     }
     const double S = model_.members[i].innovation_variance;
     member.density = S > 0.0 ? std::pow(S, -0.5 * options_.likelihood_power) : 1.0;
     prior_sum_ += prior_[i];
     sum += member.weight;
+    hindsight += member.hindsight;
   }
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (!model_.members[i].usable) continue;
-    members_[i].weight = sum > 0.0 ? members_[i].weight / sum : prior_[i] / prior_sum_;
+    Member& member = members_[i];
+    const double prior = prior_[i] / prior_sum_;
+    member.weight = sum > 0.0 ? member.weight / sum : prior;
+    member.hindsight = hindsight > 0.0 ? member.hindsight / hindsight : prior;
   }
+  mix();
 }
 
 /// @param surprise nu^2 / S of the members that are usable

@@ -29,7 +29,8 @@ struct BankEstimates {
 /// now one member fits and now another, so that evidence adds up for as long as nothing speaks against it. The estimate at lag L is
 ///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
 /// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2), published times
-/// variance_factor. What is left of the step that the last new model made (a fifth less with every sample) is taken back, so that a new model
+/// variance_factor. With look-ahead w (v / w)^b / sum take the place of w: v are weights by the same rule, of how well a member answers for
+/// z[t-lag] from all samples but that one (bank_hindsight.cpp). What is left of the step that the last new model made (a fifth less with every sample) is taken back, so that a new model
 /// begins where the last one was. What the noise cannot have been goes back (residual_check.hpp), and a slow correction (slow_correction.hpp)
 /// makes of that the answer; what it owes stays owed. With look-ahead, what the answer lacks in size is added (gain_correction.hpp).
 /// Before the first model, local levels answer (start_levels.hpp).
@@ -70,8 +71,12 @@ class KalmanBank {
     std::array<double, kMaxStates> x{};
     std::array<double, kRing> innovation{};
     std::array<double, kRing> prediction{};
-    double weight = 0.0;   ///< probability that it is the one that fits, given all samples so far
-    double density = 0.0;  ///< of an innovation of 0, in parts that all members share
+    std::array<double, kRing> whole{};  ///< the same of all that is not white, signal or not
+    double weight = 0.0;     ///< probability that it is the one that fits, given all samples so far
+    double density = 0.0;    ///< of an innovation of 0, in parts that all members share
+    double hindsight = 0.0;  ///< the same as weight by how well it answers for a sample that it is not shown
+    double late = 0.0;       ///< weight in answers with look-ahead
+    double leverage = 0.0;   ///< of a sample in its own estimate, at lag_
   };
 
   /// What one of the outputs adds to the mixture's mean.
@@ -92,8 +97,15 @@ class KalmanBank {
   [[nodiscard]] BankEstimates start_anew(double sample) noexcept;
   void predict_and_update(std::size_t index, double sample, std::uint64_t time) noexcept;
   void weigh(const std::array<double, kMembers>& surprise) noexcept;
+  void look_back() noexcept;
+  [[nodiscard]] double hindsight_of(std::size_t index) const noexcept;
+  void mix() noexcept;
+  [[nodiscard]] static int roots_at(std::size_t lag) noexcept;
   void settle_weights() noexcept;
   [[nodiscard]] BankEstimate combine(std::size_t lag) const noexcept;
+  [[nodiscard]] double weight_at(std::size_t index, std::size_t lag) const noexcept {
+    return lag == 0 ? members_[index].weight : members_[index].late;
+  }
   [[nodiscard]] double member_estimate(std::size_t index, std::size_t lag) const noexcept;
   [[nodiscard]] double sample_at(std::uint64_t time) const noexcept {
     return history_[time % history_.size()];
@@ -105,6 +117,8 @@ class KalmanBank {
   bool fitted_ = false;  ///< model_ came from a window
   StartLevels start_;    ///< until then
   double switching_rate_ = 0.0;
+  double hindsight_rate_ = 0.0;
+  int hindsight_roots_;
   double fit_memory_ = kFitMemory;  ///< samples
   double unit_ = 1.0;               ///< variances of the model in use are in parts of this
   std::uint64_t count_ = 0;         ///< samples taken

@@ -15,6 +15,14 @@ double MemberModel::error_variance(std::size_t lag) const noexcept {
   return std::max(prediction_variance - innovation_variance * sum, 0.0);
 }
 
+double MemberModel::leverage(std::size_t lag) const noexcept {
+  assert(lag <= kMaxLag && white_variance > 0.0);
+  double sum = 0.0;
+  for (std::size_t k = 0; k <= lag; ++k) sum += whole_smoothing[k] * whole_smoothing[k];
+  const double unknown = innovation_variance - white_variance - innovation_variance * sum;
+  return std::clamp(unknown / white_variance, 0.0, 1.0);
+}
+
 class MemberDesigner::Workspace {
  public:
   bool design(const BlockSet& blocks, double r, MemberModel& member) noexcept {
@@ -35,6 +43,7 @@ class MemberDesigner::Workspace {
       member.prediction_variance += block.signal * signal_covariance_[head] + block.apart;
       head += block.order;
     }
+    member.white_variance = r;
     smooth(member);
     member.usable = true;
     return true;
@@ -62,10 +71,16 @@ class MemberDesigner::Workspace {
       h[head] = 1.0;
       head += block.order;
     }
-    for (double& g : member.smoothing) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < member.states; ++i) sum += signal_covariance_[i] * h[i];
-      g = sum / member.innovation_variance;
+    const auto observed = riccati_.observed_covariance();
+    for (std::size_t k = 0; k <= kMaxLag; ++k) {
+      double signal = 0.0;
+      double whole = 0.0;
+      for (std::size_t i = 0; i < member.states; ++i) {
+        signal += signal_covariance_[i] * h[i];
+        whole += observed[i] * h[i];
+      }
+      member.smoothing[k] = signal / member.innovation_variance;
+      member.whole_smoothing[k] = whole / member.innovation_variance;
       step_back(member, h);
     }
   }

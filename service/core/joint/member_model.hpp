@@ -48,10 +48,16 @@ struct MemberModel {
   double prediction_variance = 0.0;       ///< C' X C + apart, of the predicted signal's error, unit^2
   /// g_k = C' X (F')^k H / S: the signal k samples ago is better known by g_k times the newest innovation.
   std::array<double, kMaxLag + 1> smoothing{};
+  /// The same of all that is not white, signal or not: H' X (F')^k H / S.
+  std::array<double, kMaxLag + 1> whole_smoothing{};
+  double white_variance = 0.0;  ///< r, unit^2
   bool usable = false;
 
   /// Variance of the estimate's error at this lag, C' X C - S sum_{k <= lag} g_k^2, unit^2. @pre lag <= kMaxLag
   [[nodiscard]] double error_variance(std::size_t lag) const noexcept;
+  /// How much of a sample's white noise its own estimate at this lag takes in: the variance of what is left unknown of H' x, in parts of r;
+  /// 0..1. @pre lag <= kMaxLag
+  [[nodiscard]] double leverage(std::size_t lag) const noexcept;
 };
 
 /// Makes members. Sizes its workspace once; design() allocates nothing. Not thread-safe.

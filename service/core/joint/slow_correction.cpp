@@ -43,9 +43,10 @@ double SlowCorrection::steady_rate(const Trust& trust, const JointOptions& optio
   if (!(expected > 0.0)) return 0.0;
   const double cube = steady_ * steady_ * steady_;
   const double given_back = settled / expected * std::max(now / expected, 1.0);
-  return late ? std::min(options.late_steady_correction * cube * steady_ * given_back,
-                         options.most_late_steady_correction)
-              : std::min(options.steady_correction * cube * given_back, options.most_steady_correction);
+  const double rate =
+      late ? options.late_steady_correction * cube * steady_ : options.steady_correction * cube;
+  const double most = late ? options.most_late_steady_correction : options.most_steady_correction;
+  return std::min(rate * given_back, scale.most_correction(most));
 }
 
 }  // namespace gyrod::core

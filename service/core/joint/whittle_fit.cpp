@@ -49,13 +49,18 @@ WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles, E
 
 void WhittleFit::observe(std::span<const double> periodogram, const NoiseModel& noise,
                          const SpectralMode& line) noexcept {
-  assert(periodogram.size() == bins_ && is_usable(noise));
-  std::ranges::copy(periodogram, observed_.begin());
+  assert(is_usable(noise));
+  observe(periodogram);
   sum_noise(noise);
   std::ranges::copy(rest_, noise_.begin());
   if (line.drive > 0.0) {
     kernel_->add_spectrum(bins_, line, cosines_.data(), sines_.data(), row(0).data(), noise_.data());
   }
+}
+
+void WhittleFit::observe(std::span<const double> periodogram) noexcept {
+  assert(periodogram.size() == bins_);
+  std::ranges::copy(periodogram, observed_.begin());
 }
 
 /// noise_spectrum() at every bin, by Horner's rule in z = e^-iw.

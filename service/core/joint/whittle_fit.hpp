@@ -30,6 +30,9 @@ class WhittleFit {
   void observe(std::span<const double> periodogram, const NoiseModel& noise,
                const SpectralMode& line = {}) noexcept;
 
+  /// Another periodogram of the window beside the same noise. @pre observe() was called, and as above
+  void observe(std::span<const double> periodogram) noexcept;
+
   /// The noise's spectrum at every bin, as observe() was told.
   [[nodiscard]] std::span<const double> noise() const noexcept { return noise_; }
   /// The same without the line.

@@ -80,6 +80,20 @@ std::array<double, 2> drives_of(const Made& made, MemberKind kind) {
 }
 
 // By docs/method.md, "Members": 4 times, a quarter and a sixteenth; the slow mode, which comes last where there is no tone, alike in all.
+// Shaking that is over for half of the window: the tapers of the full set hardly see it, those of the pruned one do.
+TEST(JointMembers, ThePrunedOnesAreThoseOfTheWholeWindow) {
+  Signal z = shaking(4.0, 3);
+  const Signal noise = testing::white_noise(kMembersWindow, 8);
+  for (std::size_t n = 0; n < z.size(); ++n) z[n] = (n < z.size() / 2 ? z[n] : 0.0) + noise[n];
+  const Made made = made_of(z, core::white_noise(1.0));
+  const auto predicted = [&made](MemberKind kind) { return made.model.member(kind).prediction_variance; };
+  EXPECT_GT(predicted(MemberKind::kPruned), 1.5 * predicted(MemberKind::kFull));
+  JointOptions alike;
+  alike.pruned_recency = alike.recency;
+  const Made newest = made_of(z, core::white_noise(1.0), alike);
+  EXPECT_LT(newest.model.member(MemberKind::kPruned).prediction_variance, predicted(MemberKind::kFull) * 1.1);
+}
+
 TEST(JointMembers, AreDrivenByPowersOfFour) {
   const Made made = beside_a_line();
   EXPECT_EQ(drives_of(made, MemberKind::kRough), (std::array{1.0, 4.0}));

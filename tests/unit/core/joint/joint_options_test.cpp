@@ -83,6 +83,12 @@ TEST(JointScale, ForgetsInTheSameSeconds) {
   EXPECT_EQ(JointScale(480.0, 4096).forgetting(0.03), 0.03);
 }
 
+TEST(JointScale, GivesBackTheSamePartInTheSameSeconds) {
+  EXPECT_EQ(JointScale(480.0, 1024).most_correction(0.04), 0.01);
+  EXPECT_EQ(JointScale(50.0, 1024).most_correction(0.04), 0.04);
+  EXPECT_EQ(JointScale(120.0, 256).most_correction(0.04), 0.04);
+}
+
 // Half the samples, twice the rate, whatever the seconds.
 TEST(JointScale, TheCorrectionKeepsPaceWithTheWindow) {
   EXPECT_NEAR(JointScale(120.0, 512).correction_rate(0.004), 0.008, 1e-15);

@@ -234,7 +234,9 @@ TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
   KalmanBank bank(options, 16);
   bank.use(scaled);
   options.switching_rate = scaled.scale.switching_rate(options.switching_rate);
+  options.hindsight_rate = scaled.scale.switching_rate(options.hindsight_rate);
   options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
+  options.most_late_steady_correction = scaled.scale.most_correction(options.most_late_steady_correction);
   for (double* samples : {&options.steady_memory, &options.gain_band, &options.gain_follow,
                           &options.gain_mean, &options.gain_memory})
     *samples = scaled.scale.memory(*samples);

@@ -38,6 +38,21 @@ TEST(MemberDesigner, SmoothsALevelWithTheClosedFormGains) {
   }
 }
 
+// Colour is smoothed as a level is, though it is no part of the signal.
+TEST(MemberDesigner, SmoothsAllThatIsNotWhite) {
+  const double a = 0.9;
+  BlockSet colour = one_block(a, 0.5);
+  colour.blocks[0].signal = 0.0;
+  MemberModel member;
+  ASSERT_TRUE(MemberDesigner().design(colour, 2.0, member));
+  EXPECT_EQ(member.white_variance, 2.0);
+  const double K = member.gain[0];
+  for (std::size_t k = 0; k <= kMaxLag; ++k) {
+    EXPECT_EQ(member.smoothing[k], 0.0);
+    EXPECT_NEAR(member.whole_smoothing[k], K * std::pow(a * (1.0 - K), static_cast<double>(k)), 1e-12);
+  }
+}
+
 TEST(MemberDesigner, LeavesTheMemberAloneWhereItFails) {
   MemberModel member;
   member.states = 7;

@@ -145,5 +145,22 @@ TEST(SlowCorrection, FollowsTheThirdPowerAndWithLookAheadTheFourth) {
   }
 }
 
+// The most that is given back is a part of what is owed in a time, not in a sample.
+TEST(SlowCorrection, GivesBackNoMoreInASecondWhereSamplesComeFaster) {
+  JointOptions options = at_one_rate();
+  options.correction_rate = 0.0;
+  options.steady_memory = 4.0;
+  options.steady_correction = options.late_steady_correction = 1e12;
+  options.most_steady_correction = options.most_late_steady_correction = 0.04;
+  const std::array<double, 1> nothing{};
+  for (const std::size_t newer : {0U, 1U}) {
+    SlowCorrection correction;
+    const Trust trust{.now = 0.2, .expected = 0.2, .settled = 0.2};
+    const double paid =
+        correction.apply(1.0, 0.0, trust, options, JointScale(480.0, 1024), std::span(nothing).first(newer));
+    EXPECT_NEAR(paid, 0.01, 1e-15) << newer;
+  }
+}
+
 }  // namespace
 }  // namespace gyrod

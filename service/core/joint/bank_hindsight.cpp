@@ -1,0 +1,81 @@
+// How the bank weighs its members for answers with look-ahead.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/joint/kalman_bank.hpp"
+
+namespace gyrod::core {
+namespace {
+
+/// A sample that is hardly smoothed says nothing of the others: its own estimate takes in all of it but this.
+constexpr double kLeastRest = 1e-3;
+/// Most that one sample says against a member, in parts of its variance.
+constexpr double kMostOff = 1e12;
+
+}  // namespace
+
+/// Innovations tell how well a member predicts; what it makes of samples before and after is another question, and where motion is slow beside
+/// the noise the answers differ. So each is asked for z[t-lag] from all samples up to z[t] but that one. With h the leverage of the sample and d what its
+/// estimate leaves of it, white noise of variance r makes that
+///   z - E[z | all others] = d / (1 - h),   of variance r / (1 - h).
+/// Source: leave-one-out residuals of linear smoothers, Craven, Wahba 1979, "Smoothing noisy data with spline functions".
+void KalmanBank::look_back() noexcept {
+  if (lag_ == 0) return;
+  std::array<double, kMembers> score{};
+  double best = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (!model_.members[i].usable) continue;
+    score[i] = hindsight_of(i);
+    best = std::max(best, score[i]);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kMembers; ++i) {
+    if (!model_.members[i].usable) continue;
+    Member& member = members_[i];
+    const double before = std::lerp(member.hindsight, prior_[i] / prior_sum_, hindsight_rate_);
+    const double behind = options_.likelihood_power * (best - score[i]);
+    member.hindsight = before * std::exp(-std::min(behind, options_.most_evidence));
+    sum += member.hindsight;
+  }
+  for (Member& member : members_) member.hindsight /= sum;
+  mix();
+}
+
+/// Logarithm of a member's density of z[t-lag] given all other samples, up to a constant that all members share.
+double KalmanBank::hindsight_of(std::size_t index) const noexcept {
+  const MemberModel& model = model_.members[index];
+  const Member& member = members_[index];
+  const std::uint64_t then = count_ - 1 - lag_;
+  double left = sample_at(then) - model_.mean - member.whole[then % kRing];
+  for (std::size_t k = 0; k <= lag_; ++k)
+    left -= model.whole_smoothing[k] * member.innovation[(then + k) % kRing];
+  const double rest = std::max(1.0 - member.leverage, kLeastRest);
+  const double variance = model.white_variance * unit_ * rest;
+  const double surprise = variance > 0.0 ? std::min(left * left / variance, kMostOff) : 0.0;
+  return 0.5 * (std::log(rest) - surprise);
+}
+
+/// Weights in answers with look-ahead: w (v / w)^b, b = 1/2, 1/4, ..., by square roots, which are the same on every processor.
+void KalmanBank::mix() noexcept {
+  double sum = 0.0;
+  for (Member& member : members_) {
+    double ratio = member.weight > 0.0 ? member.hindsight / member.weight : 0.0;
+    for (int root = 0; root < hindsight_roots_; ++root) ratio = std::sqrt(ratio);
+    member.late = member.weight * ratio;
+    sum += member.late;
+  }
+  for (Member& member : members_) member.late = sum > 0.0 ? member.late / sum : member.weight;
+}
+
+/// b = 1/2 from kSeenWell samples of look-ahead on, and half of that for every halving below: what hindsight tells beyond the innovations comes
+/// with the samples after the one that is asked for.
+int KalmanBank::roots_at(std::size_t lag) noexcept {
+  constexpr std::size_t kSeenWell = 16;
+  int roots = 1;
+  for (std::size_t seen = std::max<std::size_t>(lag, 1); seen < kSeenWell; seen *= 2) ++roots;
+  return roots;
+}
+
+}  // namespace gyrod::core

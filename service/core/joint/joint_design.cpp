@@ -1,0 +1,112 @@
+// What the fit makes of its modes: the members of the bank.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "core/joint/joint_fit.hpp"
+#include "core/joint/noise_peak.hpp"
+
+namespace gyrod::core {
+namespace {
+
+FilterBlock colour_block(const NoiseModel& noise) noexcept {
+  FilterBlock block;
+  block.order = noise.colour_order;
+  std::ranges::copy(noise.colour, block.a.begin());
+  block.drive = noise.colour_variance;
+  return block;
+}
+
+}  // namespace
+
+void JointFit::design(JointModel& model) noexcept {
+  model.fallbacks = 0;
+  model.noise_variance = seen_noise();
+  const bool band = max_signal_cycles_ < 0.5;
+  const double left_out_variance = unit_ * left_out();
+  model.beyond_band_variance = band ? left_out_variance : 0.0;
+  model.residual_variance = model.noise_variance + left_out_variance;
+  if (band) model.residual_variance = std::numeric_limits<double>::infinity();
+  make(blocks_of(full_, 1.0), MemberKind::kFull, model);
+  make(blocks_of(pruned_, 1.0), MemberKind::kPruned, model);
+  const double drive =
+      scale_.agile_drive(options_.agile_drive) * model.member(MemberKind::kFull).innovation_variance / unit_;
+  const double rho = options_.level_pole;
+  const double d = options_.slope_pole;
+  FilterBlock agile{.order = 1, .a = {rho}, .drive = drive, .signal = 1.0};
+  make(with_agile(agile), MemberKind::kLevel, model);
+  agile.order = 2;
+  agile.a = {rho + d, -rho * d};
+  make(with_agile(agile), MemberKind::kSlope, model);
+  make(blocks_of(full_, options_.drive_ratio), MemberKind::kRough, model);
+  const double less = 1.0 / options_.drive_ratio;
+  make(blocks_of(full_, less), MemberKind::kCalm, model);
+  make(blocks_of(full_, less * less), MemberKind::kStill, model);
+}
+
+/// A member in the data's unit. One that cannot be made keeps what it was.
+void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept {
+  MemberModel& member = model.member(kind);
+  if (!designer_.design(blocks, noise_.white_variance, member)) {
+    ++model.fallbacks;
+    return;
+  }
+  member.innovation_variance *= unit_;
+  member.prediction_variance *= unit_;
+  member.white_variance *= unit_;
+}
+
+/// The modes, all but the slow one and a tone driven drive_ratio times as hard, with their roots pulled in; and the noise's colour and line.
+BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
+  BlockSet set;
+  for (const SpectralMode& mode : modes.modes()) {
+    const double harder = mode.slow || mode.line ? 1.0 : drive_ratio;
+    FilterBlock block{.order = kModeOrder, .drive = mode.drive * harder, .signal = mode.share};
+    if (mode.share > 0.0 && mode.share < 1.0)
+      block.apart = mode.share * (1.0 - mode.share) * harder * whittle_.weigh(mode).power;
+    double factor = 1.0;
+    for (std::size_t i = 0; i < kModeOrder; ++i) {
+      factor *= options_.pole_factor;
+      block.a[i] = mode.a[i] * factor;
+    }
+    set.add(block);
+  }
+  if (noise_.colour_order > 0) set.add(colour_block(noise_));
+  if (line_.power > 0.0)
+    set.add({.order = 2, .a = {line_.mode.a[0], line_.mode.a[1]}, .drive = line_.mode.drive});
+  return set;
+}
+
+/// What lies above the signal band is no motion, nor is what the noise's own line has left in modes beside it.
+void JointFit::share_out(ModeSet& modes) noexcept {
+  if (max_signal_cycles_ >= 0.5 && line_.power == 0.0) return;
+  std::array<ModeNearLine, kMaxModes> candidates{};
+  std::size_t count = 0;
+  for (SpectralMode& mode : modes.modes()) {
+    if (mode.slow) continue;
+    const auto [centre_cycles, power] = whittle_.weigh(mode);
+    if (centre_cycles > max_signal_cycles_)
+      mode.share = 0.0;
+    else if (power > 0.0 && line_.reaches(centre_cycles, options_.line))
+      candidates[count++] = {&mode, power};
+  }
+  share_with_line(line_.power, std::span(candidates).first(count));
+}
+
+/// Variance of what is left out of the modes.
+double JointFit::left_out() noexcept {
+  double sum = 0.0;
+  for (const SpectralMode& mode : full_.modes()) {
+    if (mode.share < 1.0) sum += (1.0 - mode.share) * whittle_.weigh(mode).power;
+  }
+  return sum;
+}
+
+BlockSet JointFit::with_agile(const FilterBlock& agile) noexcept {
+  BlockSet set = blocks_of(pruned_, 1.0);
+  set.add(agile);
+  return set;
+}
+
+}  // namespace gyrod::core
