@@ -9,7 +9,7 @@
 namespace gyrod::core {
 namespace {
 
-/// A sample that is hardly smoothed says nothing of the others: its own estimate takes in all of it but this.
+/// 1 - leverage where a sample is hardly smoothed: its estimate takes in all of it, and says nothing of the others.
 constexpr double kLeastRest = 1e-3;
 /// Most that one sample says against a member, in parts of its variance.
 constexpr double kMostOff = 1e12;
@@ -51,10 +51,15 @@ double KalmanBank::hindsight_of(std::size_t index) const noexcept {
   double left = sample_at(then) - model_.mean - member.whole[then % kRing];
   for (std::size_t k = 0; k <= lag_; ++k)
     left -= model.whole_smoothing[k] * member.innovation[(then + k) % kRing];
-  const double rest = std::max(1.0 - member.leverage, kLeastRest);
-  const double variance = model.white_variance * unit_ * rest;
+  const double variance = model.white_variance * unit_ * member.rest;
   const double surprise = variance > 0.0 ? std::min(left * left / variance, kMostOff) : 0.0;
-  return 0.5 * (std::log(rest) - surprise);
+  return 0.5 * (member.log_rest - surprise);
+}
+
+/// A model has come.
+void KalmanBank::expect_hindsight(std::size_t index) noexcept {
+  members_[index].rest = std::max(1.0 - model_.members[index].leverage(lag_), kLeastRest);
+  members_[index].log_rest = std::log(members_[index].rest);
 }
 
 /// Weights in answers with look-ahead: w (v / w)^b, b = 1/2, 1/4, ..., by square roots, which are the same on every processor.

@@ -63,7 +63,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
     for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
       error_variance_[i][lag] = model_.members[i].error_variance(lag);
     }
-    members_[i].leverage = model_.members[i].leverage(lag_);
+    expect_hindsight(i);
     for (std::uint64_t time = begin; time < count_; ++time) predict_and_update(i, sample_at(time), time);
     if (count_ > begin && !std::isfinite(members_[i].innovation[(count_ - 1) % kRing])) {
       model_.members[i].usable = false;

@@ -76,7 +76,8 @@ class KalmanBank {
     double density = 0.0;    ///< of an innovation of 0, in parts that all members share
     double hindsight = 0.0;  ///< the same as weight by how well it answers for a sample that it is not shown
     double late = 0.0;       ///< weight in answers with look-ahead
-    double leverage = 0.0;   ///< of a sample in its own estimate, at lag_
+    double rest = 1.0;       ///< 1 - leverage of a sample in its own estimate, at lag_
+    double log_rest = 0.0;
   };
 
   /// What one of the outputs adds to the mixture's mean.
@@ -99,6 +100,7 @@ class KalmanBank {
   void weigh(const std::array<double, kMembers>& surprise) noexcept;
   void look_back() noexcept;
   [[nodiscard]] double hindsight_of(std::size_t index) const noexcept;
+  void expect_hindsight(std::size_t index) noexcept;
   void mix() noexcept;
   [[nodiscard]] static int roots_at(std::size_t lag) noexcept;
   void settle_weights() noexcept;
