@@ -62,11 +62,15 @@ void KalmanBank::expect_hindsight(std::size_t index) noexcept {
   members_[index].log_rest = std::log(members_[index].rest);
 }
 
-/// Weights in answers with look-ahead: w (v / w)^b, b = 1/2, 1/4, ..., by square roots, which are the same on every processor.
+/// Weights in answers with look-ahead, w (v / u)^b with u what w was at the time that v is of: hindsight takes the place of half of what the
+/// innovations had said by then, or less; what they have said since counts in full, so that a turn is believed as soon. By square roots, which are
+/// the same on every processor.
 void KalmanBank::mix() noexcept {
+  const std::uint64_t time = count_ - 1 - lag_;
   double sum = 0.0;
   for (Member& member : members_) {
-    double ratio = member.weight > 0.0 ? member.hindsight / member.weight : 0.0;
+    const double then = count_ > lag_ ? member.weights[time % kRing] : 0.0;
+    double ratio = then > 0.0 ? member.hindsight / then : 1.0;
     for (int root = 0; root < hindsight_roots_; ++root) ratio = std::sqrt(ratio);
     member.late = member.weight * ratio;
     sum += member.late;

@@ -216,7 +216,10 @@ void KalmanBank::weigh(const std::array<double, kMembers>& surprise) noexcept {
     member.weight = before * member.density * std::exp(-std::min(behind, options_.most_evidence));
     sum += member.weight;
   }
-  for (Member& member : members_) member.weight /= sum;
+  for (Member& member : members_) {
+    member.weight /= sum;
+    member.weights[(count_ - 1) % kRing] = member.weight;
+  }
 }
 
 }  // namespace gyrod::core

@@ -71,7 +71,8 @@ class KalmanBank {
     std::array<double, kMaxStates> x{};
     std::array<double, kRing> innovation{};
     std::array<double, kRing> prediction{};
-    std::array<double, kRing> whole{};  ///< the same of all that is not white, signal or not
+    std::array<double, kRing> whole{};    ///< the same of all that is not white, signal or not
+    std::array<double, kRing> weights{};  ///< weight, by time
     double weight = 0.0;     ///< probability that it is the one that fits, given all samples so far
     double density = 0.0;    ///< of an innovation of 0, in parts that all members share
     double hindsight = 0.0;  ///< the same as weight by how well it answers for a sample that it is not shown
