@@ -87,7 +87,7 @@ struct JointOptions {
   /// one whose prediction the motion happens to cross would answer for all that was. Range 0..1e12.
   double most_evidence = 2.0;
   /// Answers with look-ahead are weighed by hindsight, too (KalmanBank): the same as switching_rate of these weights. Range 0..1.
-  double hindsight_rate = 0.001;
+  double hindsight_rate = 0.002;
   /// What the bank's variance is multiplied by. It knows how well the best member does, and not that every member is a little wrong: its error
   /// squared is 1.13 to 1.21 times its variance, in the geometric mean of 18 rows, with six stretches of noise. Range 1..10.
   double variance_factor = 1.17;
