@@ -16,7 +16,8 @@ double MemberModel::error_variance(std::size_t lag) const noexcept {
 }
 
 double MemberModel::leverage(std::size_t lag) const noexcept {
-  assert(lag <= kMaxLag && white_variance > 0.0);
+  assert(lag <= kMaxLag);
+  if (!(white_variance > 0.0)) return 1.0;
   double sum = 0.0;
   for (std::size_t k = 0; k <= lag; ++k) sum += whole_smoothing[k] * whole_smoothing[k];
   const double unknown = innovation_variance - white_variance - innovation_variance * sum;

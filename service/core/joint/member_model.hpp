@@ -56,7 +56,7 @@ struct MemberModel {
   /// Variance of the estimate's error at this lag, C' X C - S sum_{k <= lag} g_k^2, unit^2. @pre lag <= kMaxLag
   [[nodiscard]] double error_variance(std::size_t lag) const noexcept;
   /// How much of a sample's white noise its own estimate at this lag takes in: the variance of what is left unknown of H' x, in parts of r;
-  /// 0..1. @pre lag <= kMaxLag
+  /// 0..1; 1 where nothing is white. @pre lag <= kMaxLag
   [[nodiscard]] double leverage(std::size_t lag) const noexcept;
 };
 

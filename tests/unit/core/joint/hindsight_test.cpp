@@ -48,6 +48,7 @@ TEST(Hindsight, LeverageIsThatOfTheWholeRecord) {
 
 TEST(Hindsight, LeverageIsWithinZeroAndOne) {
   MemberModel member;
+  EXPECT_EQ(member.leverage(0), 1.0) << "nothing is white";
   member.white_variance = 1.0;
   member.innovation_variance = 1.5;
   member.whole_smoothing = {0.5, 1.0};
