@@ -11,8 +11,6 @@ namespace {
 
 /// 1 - leverage where a sample is hardly smoothed: its estimate takes in all of it, and says nothing of the others.
 constexpr double kLeastRest = 1e-3;
-/// Most that one sample says against a member, in parts of its variance.
-constexpr double kMostOff = 1e12;
 
 }  // namespace
 
@@ -52,7 +50,7 @@ double KalmanBank::hindsight_of(std::size_t index) const noexcept {
   for (std::size_t k = 0; k <= lag_; ++k)
     left -= model.whole_smoothing[k] * member.innovation[(then + k) % kRing];
   const double variance = model.white_variance * unit_ * member.rest;
-  const double surprise = variance > 0.0 ? std::min(left * left / variance, kMostOff) : 0.0;
+  const double surprise = variance > 0.0 ? std::min(left * left / variance, kMostSurprise) : 0.0;
   return 0.5 * (member.log_rest - surprise);
 }
 

@@ -8,9 +8,6 @@
 namespace gyrod::core {
 namespace {
 
-/// Most that one sample says against a member, nu^2 / S: a million deviations.
-constexpr double kMostSurprise = 1e12;
-
 /// Whether one of the members can answer.
 bool has_member(const JointModel& model) noexcept {
   return std::ranges::any_of(model.members, &MemberModel::usable);

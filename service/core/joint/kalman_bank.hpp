@@ -29,10 +29,11 @@ struct BankEstimates {
 /// now one member fits and now another, so that evidence adds up for as long as nothing speaks against it. The estimate at lag L is
 ///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
 /// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2), published times
-/// variance_factor. With look-ahead w (v / w)^b / sum take the place of w: v are weights by the same rule, of how well a member answers for
-/// z[t-lag] from all samples but that one (bank_hindsight.cpp). What is left of the step that the last new model made (a fifth less with every sample) is taken back, so that a new model
-/// begins where the last one was. What the noise cannot have been goes back (residual_check.hpp), and a slow correction (slow_correction.hpp)
-/// makes of that the answer; what it owes stays owed. With look-ahead, what the answer lacks in size is added (gain_correction.hpp).
+/// variance_factor. With look-ahead w (v / u)^b / sum take the place of w: v are weights by the same rule, of how well a member answers for
+/// z[t-lag] from all samples but that one, and u is what w was then (bank_hindsight.cpp). What is left of the step that the last new model made (a
+/// fifth less with every sample) is taken back, so that a new model begins where the last one was. What the noise cannot have been goes back
+/// (residual_check.hpp), and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed. With look-ahead, what the
+/// answer lacks in size is added (gain_correction.hpp).
 /// Before the first model, local levels answer (start_levels.hpp).
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -66,12 +67,14 @@ class KalmanBank {
   /// Ring of what a member made of the last samples; a power of two beyond kMaxLag.
   static constexpr std::size_t kRing = 64;
   static_assert(kRing > kMaxLag && (kRing & (kRing - 1)) == 0);
+  /// Most that one sample says against a member, in parts of its variance: a million deviations.
+  static constexpr double kMostSurprise = 1e12;
 
   struct Member {
     std::array<double, kMaxStates> x{};
     std::array<double, kRing> innovation{};
     std::array<double, kRing> prediction{};
-    std::array<double, kRing> whole{};    ///< the same of all that is not white, signal or not
+    std::array<double, kRing> whole{};    ///< the same as prediction, of all that is not white, signal or not
     std::array<double, kRing> weights{};  ///< weight, by time
     double weight = 0.0;     ///< probability that it is the one that fits, given all samples so far
     double density = 0.0;    ///< of an innovation of 0, in parts that all members share

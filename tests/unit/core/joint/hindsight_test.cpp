@@ -36,6 +36,13 @@ BlockSet lively() {
   return set;
 }
 
+/// Two members that weigh alike a priori.
+JointModel two_members() {
+  JointModel model = single(blocks());
+  EXPECT_TRUE(MemberDesigner().design(lively(), kBankNoise, model.member(MemberKind::kPruned)));
+  return model;
+}
+
 // The variance of a sample beside all others is r / (1 - h): h = 1 - r / that.
 TEST(Hindsight, LeverageIsThatOfTheWholeRecord) {
   const Batch batch(blocks(), Signal(kSamples, 0.0));
@@ -87,8 +94,7 @@ double expected_answer(const std::array<BlockSet, 2>& sets, const Signal& z, std
 
 /// A bank that takes its two members over, weighed alike, before z[n-1-lag].
 double answer_of(const JointOptions& options, std::size_t lag, const Signal& z) {
-  JointModel model = single(blocks());
-  EXPECT_TRUE(MemberDesigner().design(lively(), kBankNoise, model.member(MemberKind::kPruned)));
+  const JointModel model = two_members();
   KalmanBank bank(options, lag);
   double answer = 0.0;
   for (std::size_t t = 0; t < z.size(); ++t) {
@@ -114,41 +120,35 @@ TEST(Hindsight, TakesThePlaceOfAPartOfWhatInnovationsHadSaid) {
 
 // Without look-ahead hindsight knows nothing, and says nothing.
 TEST(Hindsight, LeavesAnswersAtOnceAsTheyAre) {
-  JointModel model = single(blocks());
-  ASSERT_TRUE(MemberDesigner().design(lively(), kBankNoise, model.member(MemberKind::kPruned)));
   KalmanBank at_once(bare(), 0);
   KalmanBank late(bare(), 16);
-  at_once.use(model);
-  late.use(model);
+  at_once.use(two_members());
+  late.use(two_members());
   for (const double sample : simulated(lively(), kSamples, 7))
     ASSERT_EQ(at_once.step(sample).realtime.rate, late.step(sample).realtime.rate);
 }
 
 // A model that is the same again changes nothing: what hindsight has learned of the members is theirs.
 TEST(Hindsight, IsInherited) {
-  JointModel model = single(blocks());
-  ASSERT_TRUE(MemberDesigner().design(lively(), kBankNoise, model.member(MemberKind::kPruned)));
   KalmanBank once(bare(), 16);
   KalmanBank again(bare(), 16);
-  once.use(model);
-  again.use(model);
+  once.use(two_members());
+  again.use(two_members());
   const Signal z = simulated(lively(), kSamples, 9);
   for (std::size_t t = 0; t < z.size(); ++t) {
-    if (t == 150) again.use(model);
+    if (t == 150) again.use(two_members());
     ASSERT_NEAR(once.step(z[t]).denoised.rate, again.step(z[t]).denoised.rate, 1e-9) << t;
   }
 }
 
 // It has a rate of its own, that of how often members take turns in it.
 TEST(Hindsight, ForgetsAtItsRate) {
-  JointModel model = single(blocks());
-  ASSERT_TRUE(MemberDesigner().design(lively(), kBankNoise, model.member(MemberKind::kPruned)));
   JointOptions forgetful = bare();
   forgetful.hindsight_rate = 0.1;
   KalmanBank bank(bare(), 16);
   KalmanBank other(forgetful, 16);
-  bank.use(model);
-  other.use(model);
+  bank.use(two_members());
+  other.use(two_members());
   double apart = 0.0;
   for (const double sample : simulated(lively(), kSamples, 9)) {
     const core::BankEstimates answer = bank.step(sample);

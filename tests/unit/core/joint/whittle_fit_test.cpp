@@ -246,27 +246,6 @@ TEST(WhittleFit, PruningDrawsTheLineAtTheLikelihoodThatAModeBuys) {
   EXPECT_EQ(kept.size(), 1U);
 }
 
-// ln L of white noise alone: -sum (ln r + I / r), ends counted half.
-TEST(WhittleFit, LikelihoodOfNoiseIsTheClosedForm) {
-  WhittleFit fit(kTransform, 0.001);
-  fit.observe(Signal(kBins, 3.0), white_noise(2.0));
-  EXPECT_NEAR(fit.log_likelihood({}), -(std::log(2.0) + 1.5) * static_cast<double>(kTransform / 2), 1e-9);
-}
-
-TEST(WhittleFit, ANewNoiseIsTakenUp) {
-  WhittleFit fit(kTransform, 0.001);
-  fit.observe(Signal(kBins, 3.0), white_noise(2.0));
-  fit.observe(Signal(kBins, 3.0), white_noise(4.0));
-  EXPECT_NEAR(fit.log_likelihood({}), -(std::log(4.0) + 0.75) * static_cast<double>(kTransform / 2), 1e-9);
-}
-
-TEST(WhittleFit, AnotherPeriodogramIsSeenBesideTheSameNoise) {
-  WhittleFit fit(kTransform, 0.001);
-  fit.observe(Signal(kBins, 3.0), white_noise(2.0));
-  fit.observe(Signal(kBins, 5.0));
-  EXPECT_NEAR(fit.log_likelihood({}), -(std::log(2.0) + 2.5) * static_cast<double>(kTransform / 2), 1e-9);
-}
-
 TEST(WhittleFit, GivesTheSameBitsOnEveryKernel) {
   const ModeSet truth = set_of({oscillation(0.97, 0.3, 0.5), slow_mode(0.995, 0.05)});
   const ModeSet start = set_of({oscillation(0.8, 0.6, 1.0), slow_mode(0.9, 1.0)});
