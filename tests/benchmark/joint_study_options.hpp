@@ -31,6 +31,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("pruned_recency", options.pruned_recency);
   set("full_iterations", options.full_iterations);
   set("pruned_iterations", options.pruned_iterations);
+  set("final_iterations", options.final_iterations);
   set("shrinkage", options.shrinkage);
   set("bandwidth_cycles", options.bandwidth_cycles);
   set("line_prominence", options.line_prominence);
@@ -45,6 +46,8 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("drive_log_prior", options.drive_log_prior);
   set("hand_over_memory", options.hand_over_memory);
   set("still_log_prior", options.still_log_prior);
+  set("full_evidence", options.full_evidence);
+  set("least_full_prior", options.least_full_prior);
   set("switching_rate", options.switching_rate);
   set("likelihood_power", options.likelihood_power);
   set("most_evidence", options.most_evidence);

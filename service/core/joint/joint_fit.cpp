@@ -76,6 +76,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   follow_line(model.line, window.size());
   model.mean = report.mean;
   model.scale = scale_;
+  model.full_prior = full_prior_;
   design(model);
   report.modes = full_.size();
 }
@@ -194,11 +195,20 @@ void JointFit::fit_modes() noexcept {
   whittle_.observe(pruned_periodogram_);
   whittle_.iterate(pruned_, options_.pruned_iterations);
   whittle_.prune(pruned_, options_.prune_gain);
-  whittle_.iterate(pruned_, options_.pruned_iterations);
+  whittle_.iterate(pruned_, options_.final_iterations);
   whittle_.observe(periodogram_);
   whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
+  full_prior_ = prior_of_full();
   share_out(full_);
   share_out(pruned_);
+}
+
+/// Where nothing but the slow mode is left after pruning, what the full set has beside it may be the noise's: it then counts by what it buys.
+double JointFit::prior_of_full() noexcept {
+  if (pruned_.size() > 1) return 1.0;
+  const double bought = 2.0 * (whittle_.log_likelihood(full_) - whittle_.log_likelihood(pruned_));
+  if (!(bought < options_.full_evidence)) return 1.0;
+  return std::max(std::exp(0.5 * (bought - options_.full_evidence)), options_.least_full_prior);
 }
 
 void JointFit::follow_line(LineTracker& tracker, std::size_t samples) noexcept {

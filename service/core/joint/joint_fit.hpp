@@ -61,6 +61,7 @@ class JointFit {
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
   void start_line(const Tone& tone) noexcept;
   void fit_modes() noexcept;
+  [[nodiscard]] double prior_of_full() noexcept;
   void design(JointModel& model) noexcept;
   void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
@@ -94,6 +95,7 @@ class JointFit {
   double unit_ = 1.0;  ///< variance of the noise
   double most_noise_ = std::numeric_limits<double>::infinity();
   double max_signal_cycles_ = 1.0;
+  double full_prior_ = 1.0;  ///< JointModel::full_prior of this window
   ModeSet full_;
   ModeSet pruned_;
 };

@@ -33,6 +33,9 @@ struct JointModel {
   /// Of what a good estimate takes off the samples: the noise, and what is left out as no signal. Infinite where a signal band is set.
   double residual_variance = 0.0;
   std::array<MemberModel, kMembers> members{};
+  /// Prior weight of the full set and of the rough member, in parts of what the options give them: below 1 where the window hardly speaks for more than
+  /// its slow mode.
+  double full_prior = 1.0;
   /// What becomes of the options at the window's sample rate and length.
   JointScale scale;
   /// What the windows so far say about the noise.

@@ -21,9 +21,6 @@ KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
       hindsight_roots_(roots_at(lag)),
       history_(std::max(options.hand_over_samples, kRing)) {
   assert(lag <= kMaxLag && options.hand_over_samples <= kMaxHandOver);
-  const double agile = std::exp(options.agile_log_prior);
-  const double drive = std::exp(options.drive_log_prior);
-  prior_ = {1.0, 1.0, agile, agile, drive, drive, std::exp(options.still_log_prior)};
   reset();
 }
 
@@ -73,8 +70,12 @@ void KalmanBank::use(const JointModel& model) noexcept {
   denoised_correction_.step += denoised - combine(lag_).rate;
 }
 
-/// What the model's rate and window make of the options.
+/// What the model makes of the options: its rate, its window, and what that spoke for.
 void KalmanBank::scale() noexcept {
+  const double full = model_.full_prior;
+  const double agile = std::exp(options_.agile_log_prior);
+  const double drive = std::exp(options_.drive_log_prior);
+  prior_ = {full, 1.0, agile, agile, full * drive, drive, std::exp(options_.still_log_prior)};
   switching_rate_ = model_.scale.switching_rate(options_.switching_rate);
   hindsight_rate_ = model_.scale.switching_rate(options_.hindsight_rate);
   fit_memory_ = model_.scale.memory(kFitMemory);

@@ -83,6 +83,30 @@ TEST_P(KalmanBankEvidence, WeighsByEvidenceAndByTheChanceOfASwitch) {
   }
 }
 
+// Nothing has been seen: the weights are the priors, 1/4 to 1 where the model says so, and so is what they come back to.
+TEST(KalmanBank, WeighsTheFullSetAsTheModelHasIt) {
+  constexpr double kPart = 0.25;
+  JointModel model;
+  core::MemberModel& full = model.member(MemberKind::kFull);
+  full.blocks.add({.order = 1, .drive = 1.0, .signal = 1.0});
+  full.states = 1;
+  full.innovation_variance = 2.0;
+  full.prediction_variance = 1.0;
+  full.usable = true;
+  for (const MemberKind other : {MemberKind::kPruned, MemberKind::kRough}) {
+    model.member(other) = full;
+    model.member(other).prediction_variance = other == MemberKind::kPruned ? 4.0 : 9.0;
+  }
+  model.full_prior = kPart;
+  KalmanBank bank(bare(), 0);
+  bank.use(model);
+  const double rough = std::exp(bare().drive_log_prior);
+  const double expected = (kPart * 1.0 + 4.0 + kPart * rough * 9.0) / (kPart + 1.0 + kPart * rough);
+  for (const double z : testing::white_noise(50, 3)) {
+    EXPECT_NEAR(bank.step(z).realtime.variance, expected, 1e-12);
+  }
+}
+
 // The published variance is the mixture's times the factor, at once and later.
 TEST(KalmanBank, PublishesAVarianceWidenedByTheFactor) {
   JointOptions options = bare();
