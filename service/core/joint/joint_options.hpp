@@ -84,7 +84,7 @@ struct JointOptions {
   /// the full set is beyond that of the pruned one and this: what the window's noise alone buys. Range 0..1e4.
   double full_evidence = 15.0;
   /// At least so much. Range 0..1.
-  double least_full_prior = 0.02;
+  double least_full_prior = 0.25;
   /// Probability that another member than before answers best from the next sample on. Range 0..1.
   double switching_rate = 0.002;
   /// Likelihoods are raised to this power: the innovations of a member that only nearly fits are not independent of one another, and say
