@@ -76,7 +76,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   follow_line(model.line, window.size());
   model.mean = report.mean;
   model.scale = scale_;
-  model.full_prior = full_prior_;
+  model.full_prior = prior_of_full();
   design(model);
   report.modes = full_.size();
 }
@@ -198,7 +198,6 @@ void JointFit::fit_modes() noexcept {
   whittle_.iterate(pruned_, options_.final_iterations);
   whittle_.observe(periodogram_);
   whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
-  full_prior_ = prior_of_full();
   share_out(full_);
   share_out(pruned_);
 }

@@ -95,7 +95,6 @@ class JointFit {
   double unit_ = 1.0;  ///< variance of the noise
   double most_noise_ = std::numeric_limits<double>::infinity();
   double max_signal_cycles_ = 1.0;
-  double full_prior_ = 1.0;  ///< JointModel::full_prior of this window
   ModeSet full_;
   ModeSet pruned_;
 };

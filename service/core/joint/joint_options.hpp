@@ -50,7 +50,7 @@ struct JointOptions {
   /// The same of the pruned set, which answers where the window is all alike, and then knows slow motion better from all of it. Range 0..20.
   double pruned_recency = 0.5;
   /// Iterations of the EM fit: of the full set of modes, and of the pruned set before and after pruning. The first pruned_iterations of the full
-  /// set count for both. What is slow and strong needs most: 10 for 40 leave motion of seconds 4 % more error. Range 1..100.
+  /// set count for both. What is slow and strong needs most (docs/decisions/0006, "Where the fit ends"). Range 1..100.
   int full_iterations = 40;
   int pruned_iterations = 10;
   int final_iterations = 20;

@@ -44,7 +44,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
   const double realtime = answers ? combine(0).rate : 0.0;
   const double denoised = answers ? combine(lag_).rate : 0.0;
   model_ = model;
-  scale();
+  apply_options();
   unit_ = 1.0;
   if (!fitted_) {
     fitted_ = true;
@@ -71,7 +71,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
 }
 
 /// What the model makes of the options: its rate, its window, and what that spoke for.
-void KalmanBank::scale() noexcept {
+void KalmanBank::apply_options() noexcept {
   const double full = model_.full_prior;
   const double agile = std::exp(options_.agile_log_prior);
   const double drive = std::exp(options_.drive_log_prior);
@@ -136,7 +136,7 @@ void KalmanBank::follow_start(double sample) noexcept {
     model_ = {};
     model_.noise_variance = 1.0;
     model_.residual_variance = 1.0;
-    scale();
+    apply_options();
   }
   start_.step(sample);
   unit_ = start_.noise_variance();

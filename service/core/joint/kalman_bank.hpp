@@ -25,8 +25,8 @@ struct BankEstimates {
 
 /// Every member, per sample:
 ///   x <- A x,   s = C' x,   nu = (z - mean) - H' x,   x <- x + K nu,   w <- ((1 - a) w + a p) N(nu; 0, S)^power / sum,
-/// with a the switching rate, p the prior weights (of the full set and the rough member as JointModel::full_prior has it), and the exponential in N^power at least e^-most_evidence of the largest: Bayes' rule where
-/// now one member fits and now another, so that evidence adds up for as long as nothing speaks against it. The estimate at lag L is
+/// with a the switching rate, p the prior weights (of the full set and the rough member as JointModel::full_prior has it), and the exponential in
+/// N^power at least e^-most_evidence of the largest: Bayes' rule where now one member fits and now another, so that evidence adds up for as long as nothing speaks against it. The estimate at lag L is
 ///   e_L = mean + s[t-L] + sum_{k=0..L} g_k nu[t-L+k],
 /// exact in the steady state; the bank's is e = sum w e_L with variance P = sum w (P_L + (e_L - e)^2), published times
 /// variance_factor. With look-ahead w (v / u)^b / sum take the place of w: v are weights by the same rule, of how well a member answers for
@@ -96,7 +96,7 @@ class KalmanBank {
   [[nodiscard]] double beside(std::size_t lag, double residual, double step) const noexcept;
   [[nodiscard]] double expected_variance(std::size_t lag) const noexcept;
   [[nodiscard]] double widened(double variance) const noexcept;
-  void scale() noexcept;
+  void apply_options() noexcept;
   [[nodiscard]] bool follow(double sample) noexcept;
   void follow_start(double sample) noexcept;
   [[nodiscard]] BankEstimates start_anew(double sample) noexcept;

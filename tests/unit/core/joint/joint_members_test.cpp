@@ -81,7 +81,6 @@ std::array<double, 2> drives_of(const Made& made, MemberKind kind) {
   return {slow, others};
 }
 
-// By docs/method.md, "Members": 4 times, a quarter and a sixteenth; the slow mode, which comes last where there is no tone, alike in all.
 // Shaking that is over for half of the window: the tapers of the full set hardly see it, those of the pruned one do.
 TEST(JointMembers, ThePrunedOnesAreThoseOfTheWholeWindow) {
   Signal z = shaking(4.0, 3);
@@ -96,6 +95,7 @@ TEST(JointMembers, ThePrunedOnesAreThoseOfTheWholeWindow) {
   EXPECT_LT(newest.model.member(MemberKind::kPruned).prediction_variance, predicted(MemberKind::kFull) * 1.1);
 }
 
+// By docs/method.md, "Members": 4 times, a quarter and a sixteenth; the slow mode, which comes last where there is no tone, alike in all.
 TEST(JointMembers, AreDrivenByPowersOfFour) {
   const Made made = beside_a_line();
   EXPECT_EQ(drives_of(made, MemberKind::kRough), (std::array{1.0, 4.0}));

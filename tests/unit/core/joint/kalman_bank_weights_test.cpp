@@ -47,6 +47,17 @@ TEST(KalmanBank, TrustsTheMemberThatPredictsBest) {
   EXPECT_LT(apart, 0.01 * size);
 }
 
+/// Answers 0 whatever comes in, and expects this innovation variance S and this error P.
+core::MemberModel indifferent(double innovation_variance, double prediction_variance) {
+  core::MemberModel member;
+  member.blocks.add({.order = 1, .drive = 1.0, .signal = 1.0});
+  member.states = 1;
+  member.innovation_variance = innovation_variance;
+  member.prediction_variance = prediction_variance;
+  member.usable = true;
+  return member;
+}
+
 // Two members that answer 0 whatever comes in, and expect different spreads: the mixture's variance, w P_1 + (1 - w) P_2, tells the weights.
 // They follow Bayes' rule with switching, written down here once more, with no more evidence by a sample than most_evidence.
 class KalmanBankEvidence : public ::testing::TestWithParam<double> {};
@@ -60,16 +71,8 @@ TEST_P(KalmanBankEvidence, WeighsByEvidenceAndByTheChanceOfASwitch) {
   options.likelihood_power = 0.4;
   options.most_evidence = GetParam();
   JointModel model;
-  core::MemberModel& narrow = model.member(MemberKind::kFull);
-  narrow.blocks.add({.order = 1, .drive = 1.0, .signal = 1.0});
-  narrow.states = 1;
-  narrow.innovation_variance = kNarrow;
-  narrow.prediction_variance = 1.0;
-  narrow.usable = true;
-  core::MemberModel& wide = model.member(MemberKind::kPruned);  // its prior is as large
-  wide = narrow;
-  wide.innovation_variance = kWide;
-  wide.prediction_variance = 4.0;
+  model.member(MemberKind::kFull) = indifferent(kNarrow, 1.0);
+  model.member(MemberKind::kPruned) = indifferent(kWide, 4.0);  // its prior is as large
   KalmanBank bank(options, 0);
   bank.use(model);
   double weight = 0.5;
@@ -83,20 +86,13 @@ TEST_P(KalmanBankEvidence, WeighsByEvidenceAndByTheChanceOfASwitch) {
   }
 }
 
-// Nothing has been seen: the weights are the priors, 1/4 to 1 where the model says so, and so is what they come back to.
+// All members predict alike, so that weights stay what the priors are: 1/4 to 1 where the model says so.
 TEST(KalmanBank, WeighsTheFullSetAsTheModelHasIt) {
   constexpr double kPart = 0.25;
   JointModel model;
-  core::MemberModel& full = model.member(MemberKind::kFull);
-  full.blocks.add({.order = 1, .drive = 1.0, .signal = 1.0});
-  full.states = 1;
-  full.innovation_variance = 2.0;
-  full.prediction_variance = 1.0;
-  full.usable = true;
-  for (const MemberKind other : {MemberKind::kPruned, MemberKind::kRough}) {
-    model.member(other) = full;
-    model.member(other).prediction_variance = other == MemberKind::kPruned ? 4.0 : 9.0;
-  }
+  model.member(MemberKind::kFull) = indifferent(2.0, 1.0);
+  model.member(MemberKind::kPruned) = indifferent(2.0, 4.0);
+  model.member(MemberKind::kRough) = indifferent(2.0, 9.0);
   model.full_prior = kPart;
   KalmanBank bank(bare(), 0);
   bank.use(model);
