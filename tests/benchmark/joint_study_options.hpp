@@ -69,6 +69,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("residual_decay", options.residual_decay);
   set("steady_memory", options.steady_memory);
   set("most_gain", options.most_gain);
+  set("most_gain_at_once", options.most_gain_at_once);
   set("gain_doubt", options.gain_doubt);
   set("gain_ridge", options.gain_ridge);
   set("gain_clip", options.gain_clip);

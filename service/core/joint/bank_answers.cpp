@@ -83,7 +83,8 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
   if (lag == 0) residuals_[(count_ - 1) % kRing] = sample - answer.rate;
   answer.rate =
       correction.slow.apply(sample, answer.rate, trust, options_, model_.scale, std::span(newer).first(lag));
-  if (lag > 0) answer.rate = correction.gain.apply(sample, answer.rate, unwanted, options_, model_.scale);
+  const double most = lag > 0 ? options_.most_gain : options_.most_gain_at_once;
+  answer.rate = correction.gain.apply(sample, answer.rate, unwanted, most, options_, model_.scale);
   answer.variance = widened(answer.variance);
 }
 

@@ -14,8 +14,8 @@ double GainCorrection::Band::follow(double x, const JointOptions& options, const
   return moved;
 }
 
-double GainCorrection::apply(double sample, double answer, double noise_variance, const JointOptions& options,
-                             const JointScale& scale) noexcept {
+double GainCorrection::apply(double sample, double answer, double noise_variance, double most,
+                             const JointOptions& options, const JointScale& scale) noexcept {
   paid_ = 0.0;
   if (!begun_) answers_.mean = answer;
   begun_ = true;
@@ -31,8 +31,7 @@ double GainCorrection::apply(double sample, double answer, double noise_variance
     return answer;
   }
   if (!(power_ > 0.0)) return answer;
-  const double missing =
-      std::max(0.0, options.most_gain - std::abs(covariance_ / power_ - options.most_gain));
+  const double missing = std::max(0.0, most - std::abs(covariance_ / power_ - most));
   const double bound = options.gain_clip * std::sqrt(power_);
   const double surely = missing > 0.0 ? missing * missing / (missing + options.gain_doubt) : 0.0;
   paid_ = surely * (power_ / full) * std::clamp(following_, -bound, bound);

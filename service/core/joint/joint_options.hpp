@@ -135,6 +135,8 @@ struct JointOptions {
   /// What answers with look-ahead lack of slow motion in size shows in what they leave of the samples, and is added, up to this part of them.
   /// Range 0..0.5.
   double most_gain = 0.1;
+  /// The same of answers at once, where it costs more: what is hardly too small is given back, as a swing of 1 Hz in strong noise. Range 0..0.5.
+  double most_gain_at_once = 0.03;
   /// Of that so much may be chance: what is this much counts half. Range 0..1.
   double gain_doubt = 0.01;
   /// The noise of the samples counts this much of its variance against it, where slow motion is small. Range 0..1e6.

@@ -89,7 +89,7 @@ class KalmanBank {
     double step = 0.0;  ///< what is left of the step from the last model's answer to the next one's
     ResidualCheck residual;
     SlowCorrection slow;
-    GainCorrection gain;  ///< with look-ahead
+    GainCorrection gain;
   };
 
   void correct(double sample, std::size_t lag, Correction& correction, BankEstimate& answer) noexcept;

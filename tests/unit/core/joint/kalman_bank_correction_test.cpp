@@ -188,11 +188,12 @@ TEST(KalmanBankCorrection, WithLookAheadKnowsWhatIsLeftOfNewerSamples) {
   }
 }
 
-// Of the answers with look-ahead alone, by what they leave of their own samples; an answer that is held until the end has what the last one was given.
-TEST(KalmanBankCorrection, GivesAnswersWithLookAheadTheSizeOfSlowMotion) {
+// Each by what it leaves of its own samples, and by its own most; an answer that is held until the end has what the last one was given.
+TEST(KalmanBankCorrection, GivesBothAnswersTheSizeOfSlowMotion) {
   constexpr std::size_t kLookAhead = 8;
   JointOptions options = bare();
   options.most_gain = 0.1;
+  options.most_gain_at_once = 0.3;
   options.gain_memory = 64.0;
   KalmanBank plain(bare(), kLookAhead);
   KalmanBank bank(options, kLookAhead);
@@ -200,19 +201,25 @@ TEST(KalmanBankCorrection, GivesAnswersWithLookAheadTheSizeOfSlowMotion) {
   plain.use(model);
   bank.use(model);
   core::GainCorrection beside;
+  core::GainCorrection at_once;
   const Signal z = simulated(blocks(), 400, 4);
   double most = 0.0;
+  double most_at_once = 0.0;
   for (std::size_t t = 0; t < z.size(); ++t) {
     const core::BankEstimates without = plain.step(z[t]);
     const core::BankEstimates with = bank.step(z[t]);
-    ASSERT_EQ(with.realtime.rate, without.realtime.rate) << t;
+    const double realtime = at_once.apply(z[t], without.realtime.rate, kBankNoise, 0.3, options, {});
+    ASSERT_NEAR(with.realtime.rate, realtime, 1e-12) << t;
+    most_at_once = std::max(most_at_once, std::abs(at_once.paid()));
     if (t < kLookAhead) continue;
-    const double expected = beside.apply(z[t - kLookAhead], without.denoised.rate, kBankNoise, options, {});
+    const double expected =
+        beside.apply(z[t - kLookAhead], without.denoised.rate, kBankNoise, 0.1, options, {});
     ASSERT_NEAR(with.denoised.rate, expected, 1e-12) << t;
     ASSERT_NEAR(bank.held(3).rate - plain.held(3).rate, beside.paid(), 1e-12) << t;
     most = std::max(most, std::abs(beside.paid()));
   }
   EXPECT_GT(most, 0.0);
+  EXPECT_GT(most_at_once, 0.0);
 }
 
 }  // namespace
