@@ -27,7 +27,10 @@ constexpr double kMotion = 2.0;
 /// is taken: the loudest bands are left out as motion, and a level too low costs several times what one too high costs; but vibration,
 /// unlike noise, leaves some bands as they were.
 constexpr double kMeanPower = 1.5;
-constexpr double kQuietestPower = 6.0;
+constexpr double kQuietestPower = 3.0;
+/// What a believed spectrum is off by anyway, as one stretch at rest is not like the next: the quietest three are no louder than believed up to this.
+/// Source: docs/decisions/0007, "What a model at rest is off by".
+constexpr double kModelError = 1.04;
 constexpr std::size_t kQuietest = 3;
 /// Where all bands are beyond that, and so many of the quietest no further apart than this, these hold noise: roads differ by more.
 /// Source: docs/decisions/0007, "A level that is far too low".
@@ -75,7 +78,7 @@ double level_of(std::span<const double> sorted) noexcept {
   if (all <= 1.0) return std::max(all, kLowestLevel);
   if (2 * quiet.size() <= sorted.size()) return 1.0;
   const double quietest = mean(quiet.first(std::min(kQuietest, quiet.size())));
-  return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest, kQuietestPower)));
+  return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest / kModelError, kQuietestPower)));
 }
 
 /// The same, where bands were as quiet as `bounded` within memory: that takes from a level above 1, and does not make one below it.

@@ -37,7 +37,7 @@ class NoiseTracker {
 
   /// Power of the noise in parts of the believed one, and its tilt where no colour is believed (likely_shape()).
   /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1. Above 1 the smaller of
-  /// mean^1.5 and (mean of the quietest three)^6, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
+  /// mean^1.5 and (mean of the quietest three / 1.04)^3, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
   /// some; and, as motion comes and goes while noise stays, for more than 1.15 times the least that it has shown no band counts. That is forgotten by a
   /// hundredth a window's length. 1 and white before anything was observed.
   /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 2, where
