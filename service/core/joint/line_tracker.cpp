@@ -19,6 +19,9 @@ constexpr double kSameLine = 0.05;
 constexpr double kWander = 0.06;
 /// Of the first probabilities, what is the same everywhere.
 constexpr double kAnywhere = 0.05;
+/// A bin that holds more than so many times what stands there tells no more than that: it holds motion that the fit does not know, and no line of this
+/// power explains it. Of noise alone one bin in 300 does (two tapers).
+constexpr double kMostTold = 4.0;
 
 /// Spectrum of a line of variance 1 at a distance from its middle, both in cycles per sample: a Cauchy density over half a cycle.
 double line_density(double distance, double half_width) noexcept {
@@ -130,7 +133,7 @@ LineTracker::Places LineTracker::log_likelihoods(const LineEvidence& window,
       const double distance = 0.5 * static_cast<double>(k) / last - middle;
       const double line = window.power * line_density(distance, half_width);
       const double model = window.rest[k] + std::max(window.explained[k], line);
-      likelihood[i] -= std::log(model) + window.periodogram[k] / model;
+      likelihood[i] -= std::log(model) + std::min(window.periodogram[k] / model, kMostTold);
     }
   }
   return likelihood;

@@ -44,9 +44,10 @@ struct LineEvidence {
 /// taken apart into the line and the rest (NoisePeak), and of kPlaces frequencies within a quarter of where the line is believed to be
 /// each has a probability w. At first these are as the believed spectrum has it. With every window they spread, by `drift` of the frequency a
 /// window, `leak` of them goes back to what it was at first, and Bayes' rule follows with
-///   ln L_i = -sum over bins within reach of (ln M + I / M),   M = rest + max(explained, line at place i),
+///   ln L_i = -sum over bins within reach of (ln M + min(I / M, 4)),   M = rest + max(explained, line at place i),
 /// to the power of share: windows that overlap say the same again. The larger of the two stands there as the fit has made a mode of a line
-/// that it did not know to be there; so what decides is where the window has the line's power.
+/// that it did not know to be there; so what decides is where the window has the line's power. What is far
+/// above both is motion, and decides nothing.
 /// A plain value; allocates nothing.
 /// Source: docs/method.md, "The noise's line".
 class LineTracker {

@@ -207,21 +207,18 @@ TEST(JointDrivesPrototype, IsReachedInEveryCell) {
   EXPECT_LT(sum, 0.0);
 }
 
-// A minute at rest is nearly as good as a calibration. Noise of z axes has a line, which a minute places less well, and which has moved by then: with imu2 z
-// 06 y at x 0.3 is up to 3.1 % behind, lags 16 and 32; of imu4 z see docs/method.md.
-TEST(JointDrivesLearned, AreWithinThreePercentOfCalibrated) {
-  for (const auto& noise : {noise_of(1, 'x', 0), noise_of(2, 'y', 0), noise_of(4, 'x', 0),
-                            noise_of(1, 'z', 0), noise_of(2, 'z', 0)}) {
+// A minute at rest is nearly as good as a calibration (the design's limit: 3 %), also of noise of z axes, which has a line that has moved by then.
+TEST(JointDrivesLearned, AreWithinTwoPercentOfCalibrated) {
+  for (const auto& noise :
+       {noise_of(1, 'x', 0), noise_of(4, 'x', 0), noise_of(2, 'z', 0), noise_of(4, 'z', 0)}) {
     if (!test::has_drive_rows(noise)) GTEST_SKIP() << "no recordings in " << test::data_folder();
     const Scored& known = scored(noise);
     for (std::size_t k = 0; k < known.rows.size(); ++k) {
       const test::DriveRow& row = known.rows[k];
       const NoiseModel learned = scaled(test::learned_at_rest(row), kNoiseMargin);
       const test::ByLag ours = test::joint_figures(row, learned, {}).rmse;
-      const bool beside_a_line = noise.axis == 2 && row.name == "06 y at 0.3";
-      const double most = beside_a_line ? 1.035 : 1.03;
       for (std::size_t i = 0; i < ours.size(); ++i)
-        EXPECT_LT(ours[i], most * known.figures[k].rmse[i])
+        EXPECT_LT(ours[i], 1.02 * known.figures[k].rmse[i])
             << noise.file << ", " << row.name << ", lag " << test::kJointLags[i];
     }
   }

@@ -146,6 +146,15 @@ TEST(LineTracker, StrongShakingAllOverSaysNothing) {
   EXPECT_NEAR(tracker.place().deviation, before.deviation, kStep);
 }
 
+// A tone far stronger than the line, which the fit has not found yet, does not call the line away: no line of this power explains it.
+TEST(LineTracker, AStrongToneThatNothingExplainsIsNotTheLine) {
+  Signal window = window_with(line_at(0.2, kPower));
+  window[static_cast<std::size_t>(std::lround(0.235 * kSamples))] = 3000.0;
+  LineTracker tracker = tracker_at_first();
+  watch(tracker, window, kNoMotion);
+  EXPECT_NEAR(tracker.place().cycles, 0.2, kStep);
+}
+
 // What was taken for the line for a minute is forgotten when it has gone.
 TEST(LineTracker, ForgetsATone) {
   LineTracker tracker = tracker_at_first();
