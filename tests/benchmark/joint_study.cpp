@@ -4,7 +4,7 @@
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, motion=car (hand: recordings of sensors
+// (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), motion=car (hand: recordings of sensors
 // that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; these have no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
@@ -77,9 +77,9 @@ void begin_at(test::DriveRow& row, double begin_s) {
   row.noisy_dps.erase(row.noisy_dps.begin(), row.noisy_dps.begin() + static_cast<std::ptrdiff_t>(samples));
 }
 
-void print(const char* what, const test::ByLag& values) {
+void print(const char* what, const test::ByLag& values, int digits) {
   std::printf("%s", what);
-  for (const double value : values) std::printf(" %5.3f", value);
+  for (const double value : values) std::printf(" %5.*f", digits, value);
 }
 
 std::vector<test::DriveRow> rows_of(const std::string& motion, const test::NoiseChoice& noise) {
@@ -98,6 +98,7 @@ int study(const Arguments& arguments) {
   double worst_prototype = 0.0;
   double sum = 0.0;
   std::size_t cells = 0;
+  const auto digits = static_cast<int>(number(arguments, "digits", 3));
   const auto axes = arguments.find("axes");
   const auto found = arguments.find("motion");
   const std::string motion = found == arguments.end() ? "car" : found->second;
@@ -111,14 +112,14 @@ int study(const Arguments& arguments) {
     if (motion == "car" || motion == "smooth") test::resample(row, number(arguments, "rate", 120));
     const test::JointFigures figures = test::joint_figures(row, noise, setting);
     std::printf("%-12s ", row.name.c_str());
-    print("", figures.rmse);
+    print("", figures.rmse, digits);
     if (rivals) {
       auto ratios = test::best_butterworth(row, setting);
       for (std::size_t i = 0; i < ratios.size(); ++i) {
         ratios[i] = figures.rmse[i] / ratios[i];
         worst_rival = std::max(worst_rival, ratios[i]);
       }
-      print(" |", ratios);
+      print(" |", ratios, digits);
     }
     std::printf(" |");
     const test::PrototypeRow* prototype = test::prototype_of(row);
