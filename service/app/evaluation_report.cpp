@@ -50,7 +50,8 @@ Json lag_json(const JudgedLag& lag) {
   add_angle(json, "60s", figures.angle_60s);
   json["scale_factor"] = value_of(figures.scale_factor);
   json["scale_factor_standard_error"] = error_of(figures.scale_factor);
-  json["peak_lag_samples"] = number(figures.peak_lag_samples);
+  json["peak_lag_samples"] = value_of(figures.peak_lag_samples);
+  json["peak_lag_standard_error_samples"] = error_of(figures.peak_lag_samples);
   json["samples"] = figures.samples;
   json["lost_truth_samples"] = figures.lost_truth;
   json["lost_estimate_samples"] = figures.lost_estimate;

@@ -18,7 +18,7 @@
   const star = (estimator) => (kStarred.has(estimator.kind) ? `${estimator.name} *` : estimator.name);
   const nameCell = (estimator) => ({ text: star(estimator), colour: kDrawn.has(estimator.name) || estimator.kind === "method" ? colourOf(estimator.name) : undefined });
   const last = (estimator) => estimator.lags.at(-1);
-  const withError = (value, error) => (value === null ? "–" : `${number(value)} ± ${number(error, 2)}`);
+  const withError = (value, error) => (value === null ? "–" : error === null ? number(value) : `${number(value)} ± ${number(error, 2)}`);
   const ofKind = (row, kind) => row.estimators.filter((e) => e.kind === kind);
 
   function card(parent, title) {
@@ -101,7 +101,7 @@
       ["estimator", "bias, deg/s", "RMSE less bias, deg/s", "angle in 10 s, deg", "spread", "angle in 60 s, deg", "spread", "scale factor", "correlation peak, samples", "normalised error", "less bias"],
       row.estimators.map((e) => {
         const l = last(e);
-        return { strong: e.kind === "method", cells: [nameCell(e), withError(l.bias_dps, l.bias_standard_error_dps), l.rmse_without_bias_dps, l.angle_10s_rms_deg, l.angle_10s_std_deg, l.angle_60s_rms_deg, l.angle_60s_std_deg, withError(l.scale_factor, l.scale_factor_standard_error), l.peak_lag_samples, l.normalised_error, l.normalised_error_without_bias] };
+        return { strong: e.kind === "method", cells: [nameCell(e), withError(l.bias_dps, l.bias_standard_error_dps), l.rmse_without_bias_dps, l.angle_10s_rms_deg, l.angle_10s_std_deg, l.angle_60s_rms_deg, l.angle_60s_std_deg, withError(l.scale_factor, l.scale_factor_standard_error), withError(l.peak_lag_samples, l.peak_lag_standard_error_samples), l.normalised_error, l.normalised_error_without_bias] };
       }));
     const { samples, lost_truth_samples: lost } = last(row.estimators[0]);
     made.append(element("p", `${samples.toLocaleString("en")} samples judged${lost > 0 ? `, ${lost.toLocaleString("en")} have no truth` : ""}. Noise ${number(row.noise_std_dps)} deg/s, motion ${number(row.truth_std_dps)} deg/s (standard deviations).`, "note"));

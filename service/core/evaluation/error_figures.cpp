@@ -108,7 +108,7 @@ ErrorFigures error_figures(std::span<const double> truth, const Contender& conte
   figures.angle_60s = angle_error(error, options.rate_hz, 60.0);
   figures.scale_factor = batch_slope(right, estimate, batch);
   figures.peak_lag_samples =
-      correlation_peak(truth, contender.estimate, {begin, begin + length}, options.max_peak_lag);
+      correlation_peak(truth, contender.estimate, {begin, begin + length}, options.max_peak_lag, 10 * batch);
   return figures;
 }
 

@@ -36,14 +36,14 @@ struct ErrorFigures {
   std::optional<AngleError> angle_60s;
   std::optional<Measured>
       scale_factor;  ///< slope of the estimate on the truth, sample by sample; below 1 for what shrinks
-  std::optional<double>
+  std::optional<Measured>
       peak_lag_samples;  ///< shift at which estimate and truth correlate most; above 0: late
 };
 
 struct ErrorOptions {
   double rate_hz = 100.0;
   SampleRange range;
-  /// Batch of the standard errors, seconds.
+  /// Batch of the standard errors, seconds; that of peak_lag_samples is ten times as long.
   double batch_s = 1.0;
   /// Largest shift for peak_lag_samples.
   std::size_t max_peak_lag = 64;

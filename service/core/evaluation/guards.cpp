@@ -15,6 +15,8 @@ namespace {
 constexpr double kSwingDps = 5.0;
 constexpr double kVibrationDps = 1.0;
 constexpr double kVibrationHz = 27.0;
+/// Of the jackknife's batches: longer than the memory of what estimators miss of slow motion.
+constexpr std::size_t kBatchSeconds = 10;
 
 constexpr std::array<std::string_view, 9> kNames = {"mean-preserved",   "slow-turn-gain",  "swing-gain",
                                                     "scale-factor",     "joint-roughness", "joint-outliers",
@@ -46,6 +48,20 @@ Guard mean_preserved(const Contender& plain, const GuardCase& on, double limit) 
     return not_applicable(GuardKind::kMeanPreserved, limit, "the record has no noise");
   const double value = std::abs(moved->value) / noise->standard_error;
   return {GuardKind::kMeanPreserved, verdict(value <= limit), value, std::nullopt, limit, ""};
+}
+
+/// Of a deviation that is known to two standard errors: within the limit, beyond it, or too uncertain to tell.
+/// @param expected what the guard's value is where nothing deviates
+Guard uncertain_guard(GuardKind kind, const Measured& deviation, double expected, double limit,
+                      std::string reason) {
+  const double error = 2.0 * deviation.standard_error;
+  const double size = std::abs(deviation.value);
+  Guard guard{kind, verdict(size <= limit), expected + deviation.value, deviation.standard_error, limit, ""};
+  if (error > limit && !(size - error > limit)) {
+    guard.verdict = Verdict::kNotApplicable;
+    guard.reason = std::move(reason);
+  }
+  return guard;
 }
 
 struct GainTest {
@@ -84,18 +100,9 @@ Guard scale_factor(const Contender& plain, const GuardCase& on, double limit) {
   const std::size_t end = std::min(on.range.end, on.truth_dps.size());
   const auto truth = second_means(on.truth_dps.subspan(on.range.begin, end - on.range.begin), second_of(on));
   const auto taken = second_means(difference(plain.estimate, on.noisy_dps, on.range), second_of(on));
-  const auto slope = batch_slope(truth, taken, 10);
+  const auto slope = batch_slope(truth, taken, kBatchSeconds);
   if (!slope) return not_applicable(GuardKind::kScaleFactor, limit, "less than 20 s of motion are known");
-  const double gain = 1.0 + slope->value;
-  const bool surely_wrong = std::abs(slope->value) - 2.0 * slope->standard_error > limit;
-  if (2.0 * slope->standard_error > limit && !surely_wrong) {
-    Guard guard = not_applicable(GuardKind::kScaleFactor, limit, "too little slow motion to tell");
-    guard.value = gain;
-    guard.standard_error = slope->standard_error;
-    return guard;
-  }
-  const bool pass = std::abs(slope->value) <= limit;
-  return {GuardKind::kScaleFactor, verdict(pass), gain, slope->standard_error, limit, ""};
+  return uncertain_guard(GuardKind::kScaleFactor, *slope, 1.0, limit, "too little slow motion to tell");
 }
 
 /// A method may add to the squares of second differences, in parts of what they are elsewhere, limit^2 - 1; where the truth happens to be rougher
@@ -129,9 +136,11 @@ void joint_guards(const Contender& plain, const GuardCase& on, const GuardLimits
 
 Guard delay_guard(const Contender& plain, const GuardCase& on, double limit) {
   constexpr std::size_t kFarthest = 64;
-  const auto peak = correlation_peak(on.truth_dps, plain.estimate, on.range, kFarthest);
+  const auto peak =
+      correlation_peak(on.truth_dps, plain.estimate, on.range, kFarthest, kBatchSeconds * second_of(on));
   if (!peak) return not_applicable(GuardKind::kDelay, limit, "its correlation with the truth has no peak");
-  Guard guard{GuardKind::kDelay, verdict(std::abs(*peak) <= limit), peak, std::nullopt, limit, ""};
+  Guard guard = uncertain_guard(GuardKind::kDelay, *peak, 0.0, limit,
+                                "too little motion that is fast enough, and in the answer, to tell");
   if (plain.lag_samples == 0) {
     guard.verdict = Verdict::kNotApplicable;
     guard.reason = "answers at once: this is its measured delay";

@@ -21,8 +21,8 @@ enum class GuardKind : std::uint8_t {
   kJointRoughness,  ///< rms second difference at joints over that elsewhere; at most 1.2, or what the truth's lets expect
   kJointOutliers,  ///< share of second differences at joints beyond the elsewhere 95 % quantile; 0.05 + 3 standard errors at most
   kJointWorstStep,  ///< worst sample-to-sample step at a joint in standard deviations of those elsewhere; 3, or what those elsewhere let expect
-  kDelay,           ///< shift of greatest correlation with the truth, samples; 0.5 at most
-  kVibrationGain,   ///< gain of an added 27 Hz tone (fs/4 at most) of 1 deg/s; off 1 by 0.1 at most
+  kDelay,  ///< shift of greatest correlation with the truth, samples; 0.5 at most, where that is known to 0.25
+  kVibrationGain,  ///< gain of an added 27 Hz tone (fs/4 at most) of 1 deg/s; off 1 by 0.1 at most
 };
 
 enum class Verdict : std::uint8_t { kPass, kFail, kNotApplicable };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -94,20 +95,61 @@ Means means_of(std::span<const double> x, std::span<const double> y) noexcept {
   return means;
 }
 
-double correlation(std::span<const double> x, std::span<const double> y) noexcept {
-  const Means means = means_of(x, y);
+/// What a correlation coefficient needs to know.
+struct PairSums {
+  double count = 0.0;
+  double x = 0.0;
+  double y = 0.0;
   double xx = 0.0;
   double yy = 0.0;
   double xy = 0.0;
-  for (std::size_t t = 0; t < x.size(); ++t) {
-    if (!std::isfinite(x[t]) || !std::isfinite(y[t])) continue;
-    const double u = x[t] - means.x;
-    const double v = y[t] - means.y;
-    xx += u * u;
-    yy += v * v;
-    xy += u * v;
+
+  void add(double x_value, double y_value) noexcept {
+    count += 1.0;
+    x += x_value;
+    y += y_value;
+    xx += x_value * x_value;
+    yy += y_value * y_value;
+    xy += x_value * y_value;
   }
-  return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : std::numeric_limits<double>::quiet_NaN();
+  PairSums& operator-=(const PairSums& other) noexcept { return *this = combined(other, -1.0); }
+  friend PairSums operator+(const PairSums& a, const PairSums& b) noexcept { return a.combined(b, 1.0); }
+  /// NaN where one of the two does not vary by more than rounding makes of it.
+  [[nodiscard]] double coefficient() const noexcept {
+    const double x_variation = xx - x * x / count;
+    const double y_variation = yy - y * y / count;
+    if (!(x_variation > 1e-12 * xx) || !(y_variation > 1e-12 * yy))
+      return std::numeric_limits<double>::quiet_NaN();
+    return (xy - x * y / count) / std::sqrt(x_variation * y_variation);
+  }
+
+ private:
+  [[nodiscard]] PairSums combined(const PairSums& other, double sign) const noexcept {
+    return {count + sign * other.count, x + sign * other.x,   y + sign * other.y,
+            xx + sign * other.xx,       yy + sign * other.yy, xy + sign * other.xy};
+  }
+};
+
+/// Of every batch, empty ones too; over what is finite in both.
+std::vector<PairSums> pair_sums(std::span<const double> x, std::span<const double> y, std::size_t batch) {
+  const Means means = means_of(x, y);
+  std::vector<PairSums> sums((x.size() + batch - 1) / batch);
+  for (std::size_t t = 0; t < x.size(); ++t) {
+    if (std::isfinite(x[t]) && std::isfinite(y[t])) sums[t / batch].add(x[t] - means.x, y[t] - means.y);
+  }
+  return sums;
+}
+
+/// Place of the greatest coefficient, between two of them by a parabola; nothing where one is not known.
+std::optional<double> peak_of(std::span<const PairSums> sums) {
+  std::vector<double> at;
+  for (const PairSums& pairs : sums) at.push_back(pairs.coefficient());
+  if (!std::ranges::all_of(at, [](double value) { return std::isfinite(value); })) return std::nullopt;
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(at) - at.begin());
+  if (best == 0 || best + 1 == at.size()) return static_cast<double>(best);
+  const double bend = at[best - 1] - 2.0 * at[best] + at[best + 1];
+  const double shift = bend < 0.0 ? 0.5 * (at[best - 1] - at[best + 1]) / bend : 0.0;
+  return static_cast<double>(best) + shift;
 }
 
 }  // namespace
@@ -175,23 +217,35 @@ std::optional<SwingResponse> swing_response(std::span<const double> change, Samp
   return response;
 }
 
-std::optional<double> correlation_peak(std::span<const double> truth, std::span<const double> estimate,
-                                       SampleRange range, std::size_t max_lag) {
+std::optional<Measured> correlation_peak(std::span<const double> truth, std::span<const double> estimate,
+                                         SampleRange range, std::size_t max_lag, std::size_t batch) {
+  assert(batch >= 1);
   const std::size_t size = std::min(truth.size(), estimate.size());
   const std::size_t begin = std::max(range.begin, max_lag);
   const std::size_t end = std::min(range.end, size > max_lag ? size - max_lag : 0);
   if (begin + 2 > end || max_lag < 1) return std::nullopt;
-  std::vector<double> at(2 * max_lag + 1);
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    at[i] =
-        correlation(truth.subspan(begin, end - begin), estimate.subspan(begin + i - max_lag, end - begin));
-    if (!std::isfinite(at[i])) return std::nullopt;
+  const auto right = truth.subspan(begin, end - begin);
+  std::vector<std::vector<PairSums>> batches;  // [shift][batch]
+  std::vector<PairSums> all;
+  for (std::size_t i = 0; i <= 2 * max_lag; ++i) {
+    batches.push_back(pair_sums(right, estimate.subspan(begin + i - max_lag, end - begin), batch));
+    all.push_back(std::accumulate(batches.back().begin(), batches.back().end(), PairSums{}));
   }
-  const auto best = static_cast<std::size_t>(std::ranges::max_element(at) - at.begin());
-  if (best == 0 || best + 1 == at.size()) return std::nullopt;
-  const double bend = at[best - 1] - 2.0 * at[best] + at[best + 1];
-  const double shift = bend < 0.0 ? 0.5 * (at[best - 1] - at[best + 1]) / bend : 0.0;
-  return static_cast<double>(best) - static_cast<double>(max_lag) + shift;
+  const auto peak = peak_of(all);
+  if (!peak || *peak <= 0.0 || *peak >= 2.0 * static_cast<double>(max_lag)) return std::nullopt;
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t b = 0; b < batches.front().size(); ++b) {
+    std::vector<PairSums> others = all;
+    for (std::size_t i = 0; i < others.size(); ++i) others[i] -= batches[i][b];
+    const auto without = peak_of(others);
+    if (!without) continue;
+    squares += (*without - *peak) * (*without - *peak);
+    ++count;
+  }
+  const double error =
+      count > 1.0 ? std::sqrt(squares * (count - 1.0) / count) : std::numeric_limits<double>::infinity();
+  return Measured{*peak - static_cast<double>(max_lag), error};
 }
 
 }  // namespace gyrod::core

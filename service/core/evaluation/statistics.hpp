@@ -41,11 +41,12 @@ struct SwingResponse {
                                                           double frequency, double amplitude);
 
 /// The shift of `estimate` against `truth` at which their correlation coefficient is greatest, in samples, above 0 where the estimate is
-/// late; between samples by the parabola through the greatest and its neighbours.
+/// late; between samples by the parabola through the greatest and its neighbours. Standard error as of batch_slope(), infinite with less
+/// than two batches: where hardly anything of the truth is in the estimate, or nothing in it is fast, the peak is broad.
 /// @param range of the truth  @param max_lag largest shift that is tried, either way
 /// @return nothing where there is no peak inside: a constant, or a correlation that grows to the last shift
-[[nodiscard]] std::optional<double> correlation_peak(std::span<const double> truth,
-                                                     std::span<const double> estimate, SampleRange range,
-                                                     std::size_t max_lag);
+[[nodiscard]] std::optional<Measured> correlation_peak(std::span<const double> truth,
+                                                       std::span<const double> estimate, SampleRange range,
+                                                       std::size_t max_lag, std::size_t batch);
 
 }  // namespace gyrod::core

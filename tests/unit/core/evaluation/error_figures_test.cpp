@@ -89,7 +89,7 @@ TEST(ErrorFigures, SeesWhatShrinksAndWhatIsLate) {
   std::vector<double> estimate(truth.size(), 0.0);
   for (std::size_t t = 4; t < truth.size(); ++t) estimate[t] = 0.9 * truth[t - 4];
   const auto figures = error_figures(truth, contender_of(estimate), {.rate_hz = 100.0, .range = {100, 8900}});
-  EXPECT_NEAR(*figures.peak_lag_samples, 4.0, 0.05);
+  EXPECT_NEAR(figures.peak_lag_samples->value, 4.0, 0.05);
   EXPECT_NEAR(figures.scale_factor->value, 0.9, 0.02);
 }
 

@@ -77,6 +77,18 @@ TEST(Guards, FailOneThatIsLateByASample) {
   EXPECT_EQ(guard_of(GuardKind::kDelay, none).verdict, Verdict::kPass);
 }
 
+// Of motion as slow as the drive's and an answer with ten times its noise nobody can say whether it is late by half a sample.
+TEST(Guards, DoNotJudgeADelayThatIsTooUncertain) {
+  const auto noise = test::white_noise(18'000, 30.0, 2);
+  const Change drown = [&noise](std::vector<double>& x) {
+    for (std::size_t t = 0; t < x.size(); ++t) x[t] += noise[t];
+  };
+  const Guard guard = guard_of(GuardKind::kDelay, drown);
+  EXPECT_EQ(guard.verdict, Verdict::kNotApplicable);
+  EXPECT_GT(guard.standard_error.value_or(0.0), 0.25);
+  EXPECT_FALSE(guard.reason.empty());
+}
+
 TEST(Guards, OnlyStateTheDelayOfOneThatAnswersAtOnce) {
   const Guard guard = guard_of(GuardKind::kDelay, none, 0);
   EXPECT_EQ(guard.verdict, Verdict::kNotApplicable);

@@ -105,8 +105,8 @@ TEST(Statistics, CorrelationPeaksWhereASeriesWasShifted) {
   const auto truth = test::random_walk(4000, 1.0, 7);
   std::vector<double> late(truth.size(), 0.0);
   for (std::size_t t = 3; t < late.size(); ++t) late[t] = 2.0 + 0.5 * truth[t - 3];
-  EXPECT_NEAR(*correlation_peak(truth, late, {100, 3900}, 20), 3.0, 0.01);
-  EXPECT_NEAR(*correlation_peak(late, truth, {100, 3900}, 20), -3.0, 0.01);
+  EXPECT_NEAR(correlation_peak(truth, late, {100, 3900}, 20, 1000)->value, 3.0, 0.01);
+  EXPECT_NEAR(correlation_peak(late, truth, {100, 3900}, 20, 1000)->value, -3.0, 0.01);
 }
 
 // A tone of period 200: the parabola through three samples of a cosine is off by less than 1e-4 of a sample.
@@ -116,15 +116,53 @@ TEST(Statistics, CorrelationPeakIsFoundBetweenSamples) {
   for (std::size_t t = 0; t < late.size(); ++t) {
     late[t] = std::sin(2.0 * std::numbers::pi * 0.005 * (static_cast<double>(t) - 1.4));
   }
-  EXPECT_NEAR(*correlation_peak(truth, late, {200, 3800}, 20), 1.4, 1e-3);
+  EXPECT_NEAR(correlation_peak(truth, late, {200, 3800}, 20, 1000)->value, 1.4, 1e-3);
+}
+
+/// A random walk that forgets, seen through noise of its own: its low-pass, so that the peak is broad.
+std::vector<double> blurred(const std::vector<double>& x, unsigned seed) {
+  const auto noise = test::white_noise(x.size(), 1.0, seed);
+  std::vector<double> y(x.size());
+  double low = 0.0;
+  for (std::size_t t = 0; t < x.size(); ++t) y[t] = low += 0.1 * (x[t] + noise[t] - low);
+  return y;
+}
+
+// The standard error is what the peaks of records of the same kind spread by. 40 records, so that their spread is known to a ninth.
+TEST(Statistics, StandardErrorOfTheCorrelationPeakIsItsSpread) {
+  double sum = 0.0;
+  double squares = 0.0;
+  double claimed = 0.0;
+  constexpr unsigned kRecords = 40;
+  for (unsigned seed = 1; seed <= kRecords; ++seed) {
+    const auto truth = blurred(test::white_noise(20'000, 1.0, 1000 + seed), 2000 + seed);
+    const auto peak = correlation_peak(truth, blurred(truth, seed), {100, 19'900}, 40, 1000);
+    ASSERT_TRUE(peak);
+    sum += peak->value;
+    squares += peak->value * peak->value;
+    claimed += peak->standard_error * peak->standard_error;
+  }
+  const double mean = sum / kRecords;
+  const double spread = std::sqrt((squares - sum * mean) / (kRecords - 1));
+  EXPECT_GT(mean, 1.0) << "the low-pass is late";
+  EXPECT_GT(spread, 0.02);
+  EXPECT_NEAR(std::sqrt(claimed / kRecords) / spread, 1.0, 0.4);
+}
+
+TEST(Statistics, CorrelationPeakOfLessThanTwoBatchesIsOfUnknownError) {
+  const auto truth = test::random_walk(900, 1.0, 7);
+  const auto peak = correlation_peak(truth, truth, {0, 900}, 20, 1000);
+  ASSERT_TRUE(peak);
+  EXPECT_NEAR(peak->value, 0.0, 0.01);
+  EXPECT_TRUE(std::isinf(peak->standard_error));
 }
 
 TEST(Statistics, NoPeakForAConstantOrBeyondTheLastShift) {
   const auto truth = test::tone(4000, 0.005);
-  EXPECT_FALSE(correlation_peak(truth, std::vector<double>(4000, 1.0), {200, 3800}, 20));
+  EXPECT_FALSE(correlation_peak(truth, std::vector<double>(4000, 1.0), {200, 3800}, 20, 1000));
   std::vector<double> late(truth.size(), 0.0);
   for (std::size_t t = 30; t < late.size(); ++t) late[t] = truth[t - 30];
-  EXPECT_FALSE(correlation_peak(truth, late, {200, 3800}, 20));
+  EXPECT_FALSE(correlation_peak(truth, late, {200, 3800}, 20, 1000));
 }
 
 }  // namespace
