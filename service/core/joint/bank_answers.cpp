@@ -85,6 +85,7 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
       correction.slow.apply(sample, answer.rate, trust, options_, model_.scale, std::span(newer).first(lag));
   const double most = lag > 0 ? options_.most_gain : options_.most_gain_at_once;
   answer.rate = correction.gain.apply(sample, answer.rate, unwanted, most, options_, model_.scale);
+  if (lag == 0) correction.slow.take_off(correction.gain.paid());
   answer.variance = widened(answer.variance);
 }
 

@@ -222,5 +222,29 @@ TEST(KalmanBankCorrection, GivesBothAnswersTheSizeOfSlowMotion) {
   EXPECT_GT(most_at_once, 0.0);
 }
 
+// Or a turn would be paid twice, and the angle after it would be too large.
+TEST(KalmanBankCorrection, WhatAnAnswerAtOnceIsGivenInSizeIsOwedNoMore) {
+  JointOptions options = bare();
+  options.most_gain_at_once = 0.3;
+  options.gain_memory = 64.0;
+  options.correction_rate = 0.02;
+  KalmanBank plain(bare(), 0);
+  KalmanBank bank(options, 0);
+  plain.use(single(blocks()));
+  bank.use(single(blocks()));
+  core::SlowCorrection slow;
+  core::GainCorrection gain;
+  const Signal z = simulated(blocks(), 400, 4);
+  double most = 0.0;
+  for (std::size_t t = 0; t < z.size(); ++t) {
+    const double corrected = slow.apply(z[t], plain.step(z[t]).realtime.rate, {}, options, {});
+    const double expected = gain.apply(z[t], corrected, 0.0, 0.3, options, {});
+    slow.take_off(gain.paid());
+    ASSERT_NEAR(bank.step(z[t]).realtime.rate, expected, 1e-12) << t;
+    most = std::max(most, std::abs(gain.paid()));
+  }
+  EXPECT_GT(most, 0.0);
+}
+
 }  // namespace
 }  // namespace gyrod
