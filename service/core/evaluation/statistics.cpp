@@ -236,6 +236,7 @@ std::optional<Measured> correlation_peak(std::span<const double> truth, std::spa
   double squares = 0.0;
   double count = 0.0;
   for (std::size_t b = 0; b < batches.front().size(); ++b) {
+    if (batches[max_lag][b].count == 0.0) continue;
     std::vector<PairSums> others = all;
     for (std::size_t i = 0; i < others.size(); ++i) others[i] -= batches[i][b];
     const auto without = peak_of(others);

@@ -1,5 +1,6 @@
 #include "core/evaluation/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -155,6 +156,18 @@ TEST(Statistics, CorrelationPeakOfLessThanTwoBatchesIsOfUnknownError) {
   ASSERT_TRUE(peak);
   EXPECT_NEAR(peak->value, 0.0, 0.01);
   EXPECT_TRUE(std::isinf(peak->standard_error));
+}
+
+// A batch in which the truth was lost tells nothing of how well the rest is known: (B - 1) / B counts the others.
+TEST(Statistics, BatchesThatAreLostDoNotCountForTheCorrelationPeak) {
+  const auto truth = blurred(test::white_noise(5000, 1.0, 3), 4);
+  const auto estimate = blurred(truth, 5);
+  const auto known = correlation_peak(truth, estimate, {100, 4100}, 40, 1000);
+  auto lost = truth;
+  std::fill(lost.begin() + 4100, lost.end(), std::numeric_limits<double>::quiet_NaN());
+  const auto partly = correlation_peak(lost, estimate, {100, 4900}, 40, 1000);
+  ASSERT_TRUE(known && partly);
+  EXPECT_DOUBLE_EQ(partly->standard_error, known->standard_error);
 }
 
 TEST(Statistics, NoPeakForAConstantOrBeyondTheLastShift) {
