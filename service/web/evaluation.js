@@ -18,7 +18,13 @@
   const star = (estimator) => (kStarred.has(estimator.kind) ? `${estimator.name} *` : estimator.name);
   const nameCell = (estimator) => ({ text: star(estimator), colour: kDrawn.has(estimator.name) || estimator.kind === "method" ? colourOf(estimator.name) : undefined });
   const last = (estimator) => estimator.lags.at(-1);
-  const withError = (value, error) => (value === null ? "–" : error === null ? number(value) : `${number(value)} ± ${number(error, 2)}`);
+  /// A value to the place of the second digit of its error.
+  function withError(value, error) {
+    if (value === null || !(error > 0)) return number(value);
+    const places = Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(error))));
+    const text = (Number(value.toFixed(places)) || 0).toFixed(places); // no "-0"
+    return `${text.replace("-", "−")} ± ${error.toFixed(places)}`;
+  }
   const ofKind = (row, kind) => row.estimators.filter((e) => e.kind === kind);
 
   function card(parent, title) {
@@ -131,7 +137,7 @@
   };
 
   function verdictCell(guard) {
-    if (guard.verdict === "not applicable") return { text: guard.value === null ? `– ${guard.reason}` : `(${number(guard.value)}) ${guard.reason}`, className: "soft" };
+    if (guard.verdict === "not applicable") return { text: guard.value === null ? `– ${guard.reason}` : `(${withError(guard.value, guard.standard_error)}) ${guard.reason}`, className: "soft" };
     const late = guard.group_delay_samples;
     const delay = late !== null && Math.abs(late) >= 0.05 ? `, ${number(Math.abs(late), 2)} samples ${late > 0 ? "late" : "early"}` : "";
     return { text: `${number(guard.value)} ${guard.verdict === "pass" ? "✓" : "✗ fails"}${delay}`, className: guard.verdict === "pass" ? "class-signal" : "class-noise" };
