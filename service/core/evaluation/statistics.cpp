@@ -38,41 +38,6 @@ struct BatchSums {
   }
 };
 
-/// What a least-squares line needs to know.
-struct LineSums {
-  double count = 0.0;
-  double x = 0.0;
-  double y = 0.0;
-  double xx = 0.0;
-  double xy = 0.0;
-
-  void add(double x_value, double y_value) noexcept {
-    count += 1.0;
-    x += x_value;
-    y += y_value;
-    xx += x_value * x_value;
-    xy += x_value * y_value;
-  }
-  LineSums& operator+=(const LineSums& other) noexcept { return add(other, 1.0); }
-  LineSums& operator-=(const LineSums& other) noexcept { return add(other, -1.0); }
-  /// Nothing where x does not vary by more than rounding makes of it.
-  [[nodiscard]] std::optional<double> slope() const noexcept {
-    const double variation = xx - x * x / count;
-    if (!(variation > 1e-12 * xx)) return std::nullopt;
-    return (xy - x * y / count) / variation;
-  }
-
- private:
-  LineSums& add(const LineSums& other, double sign) noexcept {
-    count += sign * other.count;
-    x += sign * other.x;
-    y += sign * other.y;
-    xx += sign * other.xx;
-    xy += sign * other.xy;
-    return *this;
-  }
-};
-
 struct Means {
   double x = 0.0;
   double y = 0.0;
@@ -95,7 +60,7 @@ Means means_of(std::span<const double> x, std::span<const double> y) noexcept {
   return means;
 }
 
-/// What a correlation coefficient needs to know.
+/// What a least-squares line and a correlation coefficient need to know.
 struct PairSums {
   double count = 0.0;
   double x = 0.0;
@@ -114,7 +79,13 @@ struct PairSums {
   }
   PairSums& operator-=(const PairSums& other) noexcept { return *this = combined(other, -1.0); }
   friend PairSums operator+(const PairSums& a, const PairSums& b) noexcept { return a.combined(b, 1.0); }
-  /// NaN where one of the two does not vary by more than rounding makes of it.
+  /// Of the line y on x. Nothing where x does not vary by more than rounding makes of it.
+  [[nodiscard]] std::optional<double> slope() const noexcept {
+    const double variation = xx - x * x / count;
+    if (!(variation > 1e-12 * xx)) return std::nullopt;
+    return (xy - x * y / count) / variation;
+  }
+  /// NaN where one of the two does not vary so.
   [[nodiscard]] double coefficient() const noexcept {
     const double x_variation = xx - x * x / count;
     const double y_variation = yy - y * y / count;
@@ -130,7 +101,7 @@ struct PairSums {
   }
 };
 
-/// Of every batch, empty ones too; over what is finite in both.
+/// Of every batch, empty ones too, so that those of several shifts belong together; over what is finite in both, less its means.
 std::vector<PairSums> pair_sums(std::span<const double> x, std::span<const double> y, std::size_t batch) {
   const Means means = means_of(x, y);
   std::vector<PairSums> sums((x.size() + batch - 1) / batch);
@@ -138,6 +109,19 @@ std::vector<PairSums> pair_sums(std::span<const double> x, std::span<const doubl
     if (std::isfinite(x[t]) && std::isfinite(y[t])) sums[t / batch].add(x[t] - means.x, y[t] - means.y);
   }
   return sums;
+}
+
+PairSums sum_of(std::span<const PairSums> batches) noexcept {
+  return std::accumulate(batches.begin(), batches.end(), PairSums{});
+}
+
+/// Of a value, by the values without one of the batches each: sqrt((B - 1) / B sum_b (value_(-b) - value)^2). Infinite for less than two.
+double jackknife_error(double value, std::span<const double> without) noexcept {
+  if (without.size() < 2) return std::numeric_limits<double>::infinity();
+  double squares = 0.0;
+  for (const double other : without) squares += (other - value) * (other - value);
+  const auto count = static_cast<double>(without.size());
+  return std::sqrt(squares * (count - 1.0) / count);
 }
 
 /// Place of the greatest coefficient, between two of them by a parabola; nothing where one is not known.
@@ -164,30 +148,21 @@ std::optional<Measured> batch_mean(std::span<const double> x, std::size_t batch)
 
 std::optional<Measured> batch_slope(std::span<const double> x, std::span<const double> y, std::size_t batch) {
   assert(batch >= 1 && x.size() == y.size());
-  const Means means = means_of(x, y);
-  std::vector<LineSums> batches;
-  LineSums all;
-  for (std::size_t begin = 0; begin < x.size(); begin += batch) {
-    LineSums sums;
-    for (std::size_t t = begin; t < std::min(x.size(), begin + batch); ++t) {
-      if (std::isfinite(x[t]) && std::isfinite(y[t])) sums.add(x[t] - means.x, y[t] - means.y);
-    }
-    if (sums.count == 0.0) continue;
-    batches.push_back(sums);
-    all += sums;
-  }
+  const std::vector<PairSums> batches = pair_sums(x, y, batch);
+  const PairSums all = sum_of(batches);
   const auto slope = all.slope();
-  if (!slope || batches.size() < 2) return std::nullopt;
-  double squares = 0.0;
-  for (const LineSums& left_out : batches) {
-    LineSums others = all;
+  if (!slope) return std::nullopt;
+  std::vector<double> without;
+  for (const PairSums& left_out : batches) {
+    if (left_out.count == 0.0) continue;
+    PairSums others = all;
     others -= left_out;
-    const auto without = others.slope();
-    if (!without) return std::nullopt;
-    squares += (*without - *slope) * (*without - *slope);
+    const auto other = others.slope();
+    if (!other) return std::nullopt;
+    without.push_back(*other);
   }
-  const auto count = static_cast<double>(batches.size());
-  return Measured{*slope, std::sqrt(squares * (count - 1.0) / count)};
+  if (without.size() < 2) return std::nullopt;
+  return Measured{*slope, jackknife_error(*slope, without)};
 }
 
 std::optional<SwingResponse> swing_response(std::span<const double> change, SampleRange range,
@@ -229,24 +204,18 @@ std::optional<Measured> correlation_peak(std::span<const double> truth, std::spa
   std::vector<PairSums> all;
   for (std::size_t i = 0; i <= 2 * max_lag; ++i) {
     batches.push_back(pair_sums(right, estimate.subspan(begin + i - max_lag, end - begin), batch));
-    all.push_back(std::accumulate(batches.back().begin(), batches.back().end(), PairSums{}));
+    all.push_back(sum_of(batches.back()));
   }
   const auto peak = peak_of(all);
   if (!peak || *peak <= 0.0 || *peak >= 2.0 * static_cast<double>(max_lag)) return std::nullopt;
-  double squares = 0.0;
-  double count = 0.0;
+  std::vector<double> without;
   for (std::size_t b = 0; b < batches.front().size(); ++b) {
     if (batches[max_lag][b].count == 0.0) continue;
     std::vector<PairSums> others = all;
     for (std::size_t i = 0; i < others.size(); ++i) others[i] -= batches[i][b];
-    const auto without = peak_of(others);
-    if (!without) continue;
-    squares += (*without - *peak) * (*without - *peak);
-    ++count;
+    if (const auto other = peak_of(others)) without.push_back(*other);
   }
-  const double error =
-      count > 1.0 ? std::sqrt(squares * (count - 1.0) / count) : std::numeric_limits<double>::infinity();
-  return Measured{*peak - static_cast<double>(max_lag), error};
+  return Measured{*peak - static_cast<double>(max_lag), jackknife_error(*peak, without)};
 }
 
 }  // namespace gyrod::core
