@@ -120,7 +120,7 @@ TEST(Statistics, CorrelationPeakIsFoundBetweenSamples) {
   EXPECT_NEAR(correlation_peak(truth, late, {200, 3800}, 20, 1000)->value, 1.4, 1e-3);
 }
 
-/// A random walk that forgets, seen through noise of its own: its low-pass, so that the peak is broad.
+/// x with white noise on it through a low-pass of ten samples: its correlation with x has a broad peak, some samples late.
 std::vector<double> blurred(const std::vector<double>& x, unsigned seed) {
   const auto noise = test::white_noise(x.size(), 1.0, seed);
   std::vector<double> y(x.size());
