@@ -60,6 +60,7 @@ setsid "$gyrod" simulate --config "$work/gyrod.json" --motion drive --sensor dem
 cat <<EOF
 
 gyrod denoises the sensor 'demo': a MEMS gyro in a driving car, 100 samples/s, three axes.
+Its page, for a browser: ${url%metrics}
 Metrics for Prometheus: $url
 Ctrl-C ends it.
 
