@@ -59,6 +59,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("motion_memory", options.motion_memory);
   set("motion_low", options.motion_low);
   set("motion_high", options.motion_high);
+  set("motion_steady", options.motion_steady);
   set("motion_sure", options.motion_sure);
   set("correction_share", options.correction_share);
   set("steady_correction", options.steady_correction);

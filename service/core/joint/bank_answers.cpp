@@ -74,7 +74,7 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
   const Trust trust = unwanted > 0.0 ? Trust{.now = answer.variance / unwanted,
                                              .expected = expected_variance(lag) / unwanted,
                                              .settled = expected_variance(kMaxLag) / unwanted,
-                                             .moving = moving_}
+                                             .motion = slow_motion_}
                                      : Trust{};
   answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_,
                                      beside(lag, sample - answer.rate, correction.step), options_);

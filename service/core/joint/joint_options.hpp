@@ -110,9 +110,11 @@ struct JointOptions {
   double motion_mean = 1024.0;
   double motion_memory = 600.0;
   /// The square of slow motion, in parts of what white noise makes of it: nothing moves up to motion_low in the mean, something does from motion_high on,
-  /// or from motion_sure times as much at once. Range 0..50, the second above the first; 1..1e6.
+  /// or from motion_sure times as much at once. What is given back where the estimate has trusted the samples for long, below, is given in full from
+  /// motion_steady on. Range 0..50, the second and the third above the first; 1..1e6.
   double motion_low = 2.5;
   double motion_high = 6.5;
+  double motion_steady = 4.0;
   double motion_sure = 9.0;
   /// The same where the estimate trusts the samples: at least this much of the estimate's variance over the noise's. Range 0..1.
   double correction_share = 0.04;

@@ -32,7 +32,7 @@ void KalmanBank::reset() noexcept {
   members_ = {};
   residuals_ = {};
   motion_ = {};
-  moving_ = 1.0;
+  slow_motion_ = std::numeric_limits<double>::infinity();
   realtime_correction_ = {};
   denoised_correction_ = {};
   normalised_innovation_ = 1.0;
@@ -88,7 +88,7 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   } else if (!follow(sample)) {
     return start_anew(sample);
   }
-  moving_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
+  slow_motion_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
   BankEstimates answer;
   answer.realtime = combine(0);
   correct(sample, 0, realtime_correction_, answer.realtime);

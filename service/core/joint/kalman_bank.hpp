@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/joint/bank_estimate.hpp"
@@ -136,7 +137,8 @@ class KalmanBank {
   std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
   std::array<double, kRing> residuals_{};  ///< of the estimates at lag 0, by time
   SlowMotion motion_;
-  double moving_ = 1.0;  ///< what it said of the newest sample
+  /// What it said of the newest sample.
+  double slow_motion_ = std::numeric_limits<double>::infinity();
   Correction realtime_correction_;
   Correction denoised_correction_;
   double normalised_innovation_ = 1.0;

@@ -11,15 +11,21 @@ constexpr double kMostCorrection = 0.1;
 /// What the estimate's variance may count for, in parts of the noise's.
 constexpr double kMostRatio = 1e6;
 
+/// Whether anything slow moves, 0 .. 1: surely from this strength on.
+double moving(const Trust& trust, double sure, const JointOptions& options) noexcept {
+  return std::clamp((trust.motion - options.motion_low) / (sure - options.motion_low), 0.0, 1.0);
+}
+
 }  // namespace
 
 double SlowCorrection::apply(double sample, double estimate, const Trust& trust, const JointOptions& options,
                              const JointScale& scale, std::span<const double> newer) noexcept {
   const double now = std::min(trust.now, kMostRatio);
-  const double rate = std::max({scale.correction_rate(options.correction_rate) *
-                                    std::lerp(options.still_correction, 1.0, trust.moving),
-                                std::min(options.correction_share * now, kMostCorrection),
-                                steady_rate(trust, options, scale, !newer.empty())});
+  const double rate =
+      std::max({scale.correction_rate(options.correction_rate) *
+                    std::lerp(options.still_correction, 1.0, moving(trust, options.motion_high, options)),
+                std::min(options.correction_share * now, kMostCorrection),
+                steady_rate(trust, options, scale, !newer.empty())});
   const double kept = std::max(1.0 - options.residual_decay * rate, 0.0);
   double weight = options.residual_weight;
   double coming = 0.0;
@@ -46,7 +52,8 @@ double SlowCorrection::steady_rate(const Trust& trust, const JointOptions& optio
   const double rate =
       late ? options.late_steady_correction * cube * steady_ : options.steady_correction * cube;
   const double most = late ? options.most_late_steady_correction : options.most_steady_correction;
-  return std::min(rate * given_back, scale.most_correction(most));
+  return moving(trust, options.motion_steady, options) *
+         std::min(rate * given_back, scale.most_correction(most));
 }
 
 }  // namespace gyrod::core

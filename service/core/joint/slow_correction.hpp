@@ -1,6 +1,7 @@
 /// What a bank's estimate is given back of slow motion. Internal to core/joint.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "core/joint/joint_options.hpp"
@@ -12,18 +13,21 @@ struct Trust {
   double now = 0.0;       ///< P, with what the members differ by
   double expected = 0.0;  ///< P as the members expect it
   double settled = 0.0;   ///< the same with the largest look-ahead there is
-  double moving = 1.0;    ///< whether anything slow moves, 0 .. 1 (slow_motion.hpp)
+  /// Of what moves slowly, the strength (slow_motion.hpp).
+  double motion = std::numeric_limits<double>::infinity();
 };
 
 /// Of one output. It makes of an estimate e and the sample z that it is of the answer
 ///   out = e + c (owed + z - e + residual_weight sum_k (1 - residual_decay c)^k d_k),   owed <- owed + z - out,
-///   c = max(correction_rate (still_correction + (1 - still_correction) moving), correction_share now, min(steady_correction s^3 b, most_steady_correction)),
+///   c = max(correction_rate (still_correction + (1 - still_correction) moving(motion_high)), correction_share now,
+///           min(steady_correction s^3 b, most_steady_correction) moving(motion_steady)),
+///   moving(high) = (motion - motion_low) / (high - motion_low), between 0 and 1,
 ///   s <- min(settled, s + (settled - s) / steady_memory),   b = settled / expected max(1, now / expected),
 /// with the rate and the memory at the model's scale, and d_k the residual k samples later, as far as the answer waits for it: what no
 /// model expects still arrives, hardly late, and the sum of the answers stays with that of the samples. With look-ahead the last rate is
 /// min(late_steady_correction s^4 b, most_late_steady_correction).
 /// A filter weighs motion against noise, and what is as small as the noise comes out smaller; where the error has been large for long, as on a
-/// road that shakes, slow noise hardly adds to it. The error with look-ahead tells such a road from a turn. An answer with less look-ahead is
+/// road that shakes, slow noise hardly adds to it; where nothing slow moves there is nothing to give back. The error with look-ahead tells such a road from a turn. An answer with less look-ahead is
 /// given back less, as the same noise weighs more in it, and one that the members dispute more.
 /// A plain value; finite for finite arguments.
 class SlowCorrection {

@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gyrod::core {
+namespace {
+
+constexpr double kUntold = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 double SlowMotion::follow(double sample, double noise_variance, const JointOptions& options,
                           const JointScale& scale) noexcept {
@@ -17,13 +23,12 @@ double SlowMotion::follow(double sample, double noise_variance, const JointOptio
   const double of_noise = noise_variance * (a - b) * (a - b) / (2.0 * (a + b));
   if (!std::isfinite(difference) || !std::isfinite(of_noise)) {
     *this = {};
-    return 1.0;
+    return kUntold;
   }
-  if (!(of_noise > 0.0)) return 1.0;
+  if (!(of_noise > 0.0)) return kUntold;
   const double ratio = std::min(difference * difference / of_noise, options.motion_sure * kMostRatio);
   ratio_ += (std::min(ratio, kMostRatio) - ratio_) / scale.memory(options.motion_memory);
-  const double most = std::max(ratio_, ratio / options.motion_sure);
-  return std::clamp((most - options.motion_low) / (options.motion_high - options.motion_low), 0.0, 1.0);
+  return std::max(ratio_, ratio / options.motion_sure);
 }
 
 }  // namespace gyrod::core

@@ -8,7 +8,7 @@ namespace gyrod::core {
 /// Compares what is slow in the samples with what noise makes of it:
 ///   f <- f + a (z - f),   g <- g + b (z - g),   d = f - g,   a = correction_rate,   b = 1 / motion_mean,
 ///   E = R (a - b)^2 / (2 (a + b)),   m <- m + (min(d^2 / E, 50) - m) / motion_memory,   m = 50 at the start,
-///   moving = (max(m, d^2 / (motion_sure E)) - motion_low) / (motion_high - motion_low), between 0 and 1,
+///   strength = max(m, d^2 / (motion_sure E)),
 /// with times at the model's scale. E is the variance of d where the samples are white noise of variance R; real noise, which is stronger where it is
 /// slow, has up to 1.5 times as much. A turn is seen at once, and forgotten within 20 s after
 /// d has become small again.
@@ -17,7 +17,7 @@ class SlowMotion {
  public:
   /// Takes z.
   /// @param noise_variance R, at least 0
-  /// @return moving: 0 where nothing slow is seen but noise, 1 where there is, or where not enough is known
+  /// @return strength, at least 0: about 1 where nothing slow is seen but noise; infinite where nothing can be told
   [[nodiscard]] double follow(double sample, double noise_variance, const JointOptions& options,
                               const JointScale& scale) noexcept;
 

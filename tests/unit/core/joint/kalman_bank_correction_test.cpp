@@ -130,7 +130,9 @@ TEST(KalmanBankCorrection, KnowsWhereNothingSlowMoves) {
   for (std::size_t t = 0; t < z.size(); ++t) {
     const core::BankEstimates e = plain.step(z[t]);
     const core::BankEstimates out = bank.step(z[t]);
-    const double moving = motion.follow(z[t], kBankNoise, options, {});
+    const double strength = motion.follow(z[t], kBankNoise, options, {});
+    const double moving =
+        std::clamp((strength - options.motion_low) / (options.motion_high - options.motion_low), 0.0, 1.0);
     const double rate = 0.006 * (options.still_correction + (1.0 - options.still_correction) * moving);
     ASSERT_NEAR(out.realtime.rate, e.realtime.rate + rate * (realtime_owed + z[t] - e.realtime.rate), 1e-9)
         << t;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include <gtest/gtest.h>
@@ -82,10 +83,14 @@ TEST(SlowCorrection, IsEarlierWhereItLooksAhead) {
 TEST(SlowCorrection, IsSlowerWhereNothingSlowMoves) {
   JointOptions options = at_one_rate();
   options.still_correction = 0.2;
-  for (const double moving : {0.0, 0.25, 1.0}) {
+  options.motion_low = 2.0;
+  options.motion_high = 6.0;
+  for (const auto& [motion, moving] :
+       {std::array{0.0, 0.0}, std::array{2.0, 0.0}, std::array{3.0, 0.25}, std::array{6.0, 1.0},
+        std::array{50.0, 1.0}, std::array{std::numeric_limits<double>::infinity(), 1.0}}) {
     SlowCorrection correction;
-    const double paid = correction.apply(1.0, 0.0, Trust{.moving = moving}, options, JointScale{});
-    EXPECT_NEAR(paid, kCorrection * (0.2 + 0.8 * moving), 1e-15) << moving;
+    const double paid = correction.apply(1.0, 0.0, Trust{.motion = motion}, options, JointScale{});
+    EXPECT_NEAR(paid, kCorrection * (0.2 + 0.8 * moving), 1e-15) << motion;
   }
 }
 
@@ -142,6 +147,29 @@ TEST(SlowCorrection, FollowsTheThirdPowerAndWithLookAheadTheFourth) {
   for (const double now : {0.1, 0.25, 0.4}) {
     expect_power(now, false, 8.0, 3);
     expect_power(now, true, 40.0, 4);
+  }
+}
+
+// Where the estimate has trusted the samples for long, but nothing slow moves, there is nothing to give back.
+TEST(SlowCorrection, GivesBackNothingWhereNothingSlowMoves) {
+  JointOptions options = at_one_rate();
+  options.correction_rate = 0.0;
+  options.steady_memory = 4.0;
+  options.steady_correction = options.late_steady_correction = 1e12;
+  options.most_steady_correction = options.most_late_steady_correction = 0.04;
+  options.motion_low = 2.0;
+  options.motion_high = 10.0;
+  options.motion_steady = 4.0;
+  const std::array<double, 1> nothing{};
+  for (const auto& [motion, part] : {std::array{0.0, 0.0}, std::array{2.0, 0.0}, std::array{2.5, 0.25},
+                                     std::array{4.0, 1.0}, std::array{50.0, 1.0}}) {
+    for (const std::size_t newer : {0U, 1U}) {
+      SlowCorrection correction;
+      const Trust trust{.now = 0.2, .expected = 0.2, .settled = 0.2, .motion = motion};
+      const double paid =
+          correction.apply(1.0, 0.0, trust, options, JointScale{}, std::span(nothing).first(newer));
+      EXPECT_NEAR(paid, 0.04 * part, 1e-15) << motion << ", " << newer;
+    }
   }
 }
 

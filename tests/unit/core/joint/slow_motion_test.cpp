@@ -22,10 +22,12 @@ constexpr double kMostRatio = 50.0;
 /// 20 s at the design's rate.
 constexpr int kForgotten = 2400;
 
-double moving_after(SlowMotion& motion, const Signal& samples, double noise_variance = 1.0) {
-  double moving = 1.0;
-  for (const double sample : samples) moving = motion.follow(sample, noise_variance, {}, {});
-  return moving;
+constexpr double kUntold = std::numeric_limits<double>::infinity();
+
+double strength_after(SlowMotion& motion, const Signal& samples, double noise_variance = 1.0) {
+  double strength = kUntold;
+  for (const double sample : samples) strength = motion.follow(sample, noise_variance, {}, {});
+  return strength;
 }
 
 /// Two minutes.
@@ -34,7 +36,7 @@ constexpr std::size_t kRest = 14400;
 /// One that has seen nothing for that long.
 SlowMotion at_rest() {
   SlowMotion motion;
-  static_cast<void>(moving_after(motion, Signal(kRest, 0.3)));
+  static_cast<void>(strength_after(motion, Signal(kRest, 0.3)));
   return motion;
 }
 
@@ -45,19 +47,15 @@ double of_noise(const JointOptions& options) {
   return (a - b) * (a - b) / (2.0 * (a + b));
 }
 
-double part(double ratio, const JointOptions& options) {
-  return std::clamp((ratio - options.motion_low) / (options.motion_high - options.motion_low), 0.0, 1.0);
-}
-
 // At rest and without noise m is 50 (1 - 1/M)^n.
 TEST(SlowMotion, BeginsAsIfAllMovedAndForgetsThat) {
   const JointOptions options;
   SlowMotion motion;
   for (int n = 1; n <= kForgotten; ++n) {
     const double m = kMostRatio * std::pow(1.0 - 1.0 / options.motion_memory, n);
-    ASSERT_NEAR(motion.follow(0.3, 1.0, options, {}), part(m, options), 1e-12) << n;
+    ASSERT_NEAR(motion.follow(0.3, 1.0, options, {}), m, 1e-9) << n;
   }
-  EXPECT_EQ(motion.follow(0.3, 1.0, options, {}), 0.0);
+  EXPECT_LT(motion.follow(0.3, 1.0, options, {}), options.motion_low);
 }
 
 /// Of a step of the rate n samples ago, 1 in size.
@@ -78,43 +76,46 @@ TEST(SlowMotion, SeesATurnAtOnceAndForgetsIt) {
     const double d = 1.5 * (after_step(n, options) - after_step(n - kTurn, options));
     const double ratio = d * d / of_noise(options);
     m += (std::min(ratio, kMostRatio) - m) / options.motion_memory;
-    const double expected = part(std::max(m, ratio / options.motion_sure), options);
-    const double moving = motion.follow(n <= kTurn ? 1.8 : 0.3, 1.0, options, {});
-    ASSERT_NEAR(moving, expected, 1e-9) << n;
+    const double expected = std::max(m, ratio / options.motion_sure);
+    const double strength = motion.follow(n <= kTurn ? 1.8 : 0.3, 1.0, options, {});
+    ASSERT_NEAR(strength, expected, 1e-8) << n;
     small = ratio > 1.0 ? 0 : small + 1;
     if (n > 60 && n <= kTurn) {
-      ASSERT_GT(moving, 0.5) << n;
+      ASSERT_GT(strength, 0.5 * (options.motion_low + options.motion_high)) << n;
     }
     if (small > kForgotten) {
-      ASSERT_EQ(moving, 0.0) << n;
+      ASSERT_LT(strength, options.motion_low) << n;
     }
   }
   EXPECT_GT(small, kForgotten);
 }
 
-// The variance of d is what white noise of that variance makes of it: m / 50, watched as the answer itself, has the mean 1 / 50. Standard error of
+// The variance of d is what white noise of that variance makes of it: m has the mean 1. Standard error of
 // m: 400 000 samples hold about 1500 independent d^2 of relative deviation sqrt(2).
 TEST(SlowMotion, MeasuresInPartsOfWhiteNoise) {
   JointOptions options;
-  options.motion_low = 0.0;
-  options.motion_high = kMostRatio;
   options.motion_sure = 1e6;
   constexpr double kVariance = 0.49;
   SlowMotion motion;
   double sum = 0.0;
   double count = 0.0;
   for (const double z : testing::white_noise(400000, 7)) {
-    const double moving = motion.follow(std::sqrt(kVariance) * z, kVariance, options, {});
-    if (++count > 12000.0) sum += moving;
+    const double strength = motion.follow(std::sqrt(kVariance) * z, kVariance, options, {});
+    if (++count > 12000.0) sum += strength;
   }
-  EXPECT_NEAR(kMostRatio * sum / (count - 12000.0), 1.0, 0.15);
+  EXPECT_NEAR(sum / (count - 12000.0), 1.0, 0.15);
 }
 
+/// Share of the time in which noise of this deviation passes for motion, by as much as it does.
 double mean_moving(double noise) {
+  const JointOptions options;
   SlowMotion motion;
-  static_cast<void>(moving_after(motion, testing::times(testing::white_noise(12000, 1), noise)));
+  static_cast<void>(strength_after(motion, testing::times(testing::white_noise(12000, 1), noise)));
   double sum = 0.0;
-  for (const double z : testing::white_noise(100000, 2)) sum += motion.follow(noise * z, 1.0, {}, {});
+  for (const double z : testing::white_noise(100000, 2)) {
+    const double strength = motion.follow(noise * z, 1.0, options, {});
+    sum += std::clamp((strength - options.motion_low) / (options.motion_high - options.motion_low), 0.0, 1.0);
+  }
   return sum / 100000.0;
 }
 
@@ -128,13 +129,13 @@ TEST(SlowMotion, SlowSwingsAsLargeAsTheNoiseAre) {
   SlowMotion motion;
   Signal z = testing::white_noise(12000, 1);
   for (std::size_t n = 0; n < z.size(); ++n) z[n] += std::sin(0.01 * static_cast<double>(n));
-  EXPECT_EQ(moving_after(motion, z), 1.0);
+  EXPECT_GT(strength_after(motion, z), JointOptions{}.motion_high);
 }
 
 // Without noise nothing can be told.
 TEST(SlowMotion, WithoutNoiseAllMoves) {
   SlowMotion motion;
-  EXPECT_EQ(moving_after(motion, Signal(7200, 0.3), 0.0), 1.0);
+  EXPECT_EQ(strength_after(motion, Signal(7200, 0.3), 0.0), kUntold);
 }
 
 TEST(SlowMotion, KeepsItsTimesInSeconds) {
@@ -153,10 +154,13 @@ TEST(SlowMotion, KeepsItsTimesInSeconds) {
 TEST(SlowMotion, GoesOnAfterTheLargestNumbers) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   SlowMotion motion = at_rest();
-  for (int n = 0; n < 100; ++n) EXPECT_EQ(motion.follow(n % 2 == 0 ? kLargest : -kLargest, 1.0, {}, {}), 1.0);
-  EXPECT_EQ(motion.follow(0.3, kLargest, {}, {}), 1.0);
+  for (int n = 0; n < 100; ++n) {
+    const double strength = motion.follow(n % 2 == 0 ? kLargest : -kLargest, 1.0, {}, {});
+    EXPECT_GT(strength, JointOptions{}.motion_high) << n;
+  }
+  EXPECT_GT(motion.follow(0.3, kLargest, {}, {}), JointOptions{}.motion_high);
   motion = {};
-  EXPECT_EQ(moving_after(motion, Signal(7200, 0.3)), 0.0);
+  EXPECT_LT(strength_after(motion, Signal(7200, 0.3)), JointOptions{}.motion_low);
 }
 
 }  // namespace
