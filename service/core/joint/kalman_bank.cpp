@@ -32,7 +32,7 @@ void KalmanBank::reset() noexcept {
   members_ = {};
   residuals_ = {};
   motion_ = {};
-  slow_motion_ = std::numeric_limits<double>::infinity();
+  slow_motion_ = SlowMotion::kUntold;
   realtime_correction_ = {};
   denoised_correction_ = {};
   normalised_innovation_ = 1.0;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/joint/bank_estimate.hpp"
@@ -137,8 +136,7 @@ class KalmanBank {
   std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
   std::array<double, kRing> residuals_{};  ///< of the estimates at lag 0, by time
   SlowMotion motion_;
-  /// What it said of the newest sample.
-  double slow_motion_ = std::numeric_limits<double>::infinity();
+  double slow_motion_ = SlowMotion::kUntold;  ///< what it said of the newest sample
   Correction realtime_correction_;
   Correction denoised_correction_;
   double normalised_innovation_ = 1.0;

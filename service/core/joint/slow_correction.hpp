@@ -1,10 +1,10 @@
 /// What a bank's estimate is given back of slow motion. Internal to core/joint.
 #pragma once
 
-#include <limits>
 #include <span>
 
 #include "core/joint/joint_options.hpp"
+#include "core/joint/slow_motion.hpp"
 
 namespace gyrod::core {
 
@@ -14,7 +14,7 @@ struct Trust {
   double expected = 0.0;  ///< P as the members expect it
   double settled = 0.0;   ///< the same with the largest look-ahead there is
   /// Of what moves slowly, the strength (slow_motion.hpp).
-  double motion = std::numeric_limits<double>::infinity();
+  double motion = SlowMotion::kUntold;
 };
 
 /// Of one output. It makes of an estimate e and the sample z that it is of the answer

@@ -2,14 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace gyrod::core {
-namespace {
-
-constexpr double kUntold = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 double SlowMotion::follow(double sample, double noise_variance, const JointOptions& options,
                           const JointScale& scale) noexcept {

@@ -1,6 +1,8 @@
 /// Whether anything slow moves. Internal to core/joint.
 #pragma once
 
+#include <limits>
+
 #include "core/joint/joint_options.hpp"
 
 namespace gyrod::core {
@@ -15,9 +17,12 @@ namespace gyrod::core {
 /// A plain value; finite for finite arguments.
 class SlowMotion {
  public:
+  /// The strength where nothing can be told: all may move.
+  static constexpr double kUntold = std::numeric_limits<double>::infinity();
+
   /// Takes z.
   /// @param noise_variance R, at least 0
-  /// @return strength, at least 0: about 1 where nothing slow is seen but noise; infinite where nothing can be told
+  /// @return strength, at least 0: about 1 where nothing slow is seen but noise; kUntold where there is no noise to compare with, or no number
   [[nodiscard]] double follow(double sample, double noise_variance, const JointOptions& options,
                               const JointScale& scale) noexcept;
 

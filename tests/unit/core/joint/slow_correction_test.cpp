@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include <gtest/gtest.h>
@@ -87,7 +86,7 @@ TEST(SlowCorrection, IsSlowerWhereNothingSlowMoves) {
   options.motion_high = 6.0;
   for (const auto& [motion, moving] :
        {std::array{0.0, 0.0}, std::array{2.0, 0.0}, std::array{3.0, 0.25}, std::array{6.0, 1.0},
-        std::array{50.0, 1.0}, std::array{std::numeric_limits<double>::infinity(), 1.0}}) {
+        std::array{50.0, 1.0}, std::array{core::SlowMotion::kUntold, 1.0}}) {
     SlowCorrection correction;
     const double paid = correction.apply(1.0, 0.0, Trust{.motion = motion}, options, JointScale{});
     EXPECT_NEAR(paid, kCorrection * (0.2 + 0.8 * moving), 1e-15) << motion;
@@ -150,13 +149,19 @@ TEST(SlowCorrection, FollowsTheThirdPowerAndWithLookAheadTheFourth) {
   }
 }
 
-// Where the estimate has trusted the samples for long, but nothing slow moves, there is nothing to give back.
-TEST(SlowCorrection, GivesBackNothingWhereNothingSlowMoves) {
+/// Nothing but what is given back where the estimate has trusted the samples for long, at the most there is: 0.04 a sample.
+JointOptions at_most_steady() {
   JointOptions options = at_one_rate();
   options.correction_rate = 0.0;
   options.steady_memory = 4.0;
   options.steady_correction = options.late_steady_correction = 1e12;
   options.most_steady_correction = options.most_late_steady_correction = 0.04;
+  return options;
+}
+
+// Where the estimate has trusted the samples for long, but nothing slow moves, there is nothing to give back.
+TEST(SlowCorrection, GivesBackNothingWhereNothingSlowMoves) {
+  JointOptions options = at_most_steady();
   options.motion_low = 2.0;
   options.motion_high = 10.0;
   options.motion_steady = 4.0;
@@ -175,11 +180,7 @@ TEST(SlowCorrection, GivesBackNothingWhereNothingSlowMoves) {
 
 // The most that is given back is a part of what is owed in a time, not in a sample.
 TEST(SlowCorrection, GivesBackNoMoreInASecondWhereSamplesComeFaster) {
-  JointOptions options = at_one_rate();
-  options.correction_rate = 0.0;
-  options.steady_memory = 4.0;
-  options.steady_correction = options.late_steady_correction = 1e12;
-  options.most_steady_correction = options.most_late_steady_correction = 0.04;
+  const JointOptions options = at_most_steady();
   const std::array<double, 1> nothing{};
   for (const std::size_t newer : {0U, 1U}) {
     SlowCorrection correction;

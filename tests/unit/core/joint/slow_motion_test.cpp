@@ -22,10 +22,8 @@ constexpr double kMostRatio = 50.0;
 /// 20 s at the design's rate.
 constexpr int kForgotten = 2400;
 
-constexpr double kUntold = std::numeric_limits<double>::infinity();
-
 double strength_after(SlowMotion& motion, const Signal& samples, double noise_variance = 1.0) {
-  double strength = kUntold;
+  double strength = SlowMotion::kUntold;
   for (const double sample : samples) strength = motion.follow(sample, noise_variance, {}, {});
   return strength;
 }
@@ -135,7 +133,7 @@ TEST(SlowMotion, SlowSwingsAsLargeAsTheNoiseAre) {
 // Without noise nothing can be told.
 TEST(SlowMotion, WithoutNoiseAllMoves) {
   SlowMotion motion;
-  EXPECT_EQ(strength_after(motion, Signal(7200, 0.3), 0.0), kUntold);
+  EXPECT_EQ(strength_after(motion, Signal(7200, 0.3), 0.0), SlowMotion::kUntold);
 }
 
 TEST(SlowMotion, KeepsItsTimesInSeconds) {
