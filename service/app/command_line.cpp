@@ -39,7 +39,7 @@ int parse_and_act(int argc, const char* const* argv) {
   CLI::App parser(
       "gyrod denoises MEMS gyroscopes: live on Cyclone DDS topics (run), or a recording (denoise).\n"
       "By the two-speed estimator (method joint) or improved EMD with AR-Kalman filtering (method paper);\n"
-      "methods and sources: docs/method.md.");
+      "methods and sources: docs/joint.md, docs/method.md.");
   parser.name("gyrod");
   parser.set_version_flag("--version", version_text(), "Print the version and what it is built on");
   parser.require_subcommand(1);

@@ -18,7 +18,7 @@ constexpr double kMostOfQuietest = 2.0;
 constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;
 /// And within these they are again, 128 samples later at the earliest. The mean takes about a second from one limit to the other where the model
-/// holds, less after a knock; at one limit for both, its noise crossed that again and again. Source: docs/method.md, "When the noise is not as
+/// holds, less after a knock; at one limit for both, its noise crossed that again and again. Source: docs/joint.md, "When the noise is not as
 /// believed". Numbers of samples are those of the design's rate; at higher ones the seconds are the same (core::JointScale::memory()).
 constexpr double kLeastFitting = 0.8;
 constexpr double kLargestFitting = 1.6;

@@ -1,5 +1,5 @@
 // Whether one sees where a new model takes over, on a car's reference gyro plus the noise of a still one (samples 2400..9600 of
-// support/drive_rows.hpp): the table of docs/method.md, "Hand-overs".
+// support/drive_rows.hpp): the table of docs/measured.md, "Hand-overs".
 //   GYROD_DATA=... hand_over_study
 //   GYROD_DATA=... hand_over_study at_once
 // For lag 16 and lag 0: what the new model's answer is less what the old one's was (rms and largest), the largest step

@@ -1,5 +1,5 @@
 // The two-speed estimator beside Butterworth filters tuned on the truth, on a car's reference gyro plus the noise of a still one:
-// RMSE in deg/s over samples 2400..9600, by lag. The tables of docs/method.md.
+// RMSE in deg/s over samples 2400..9600, by lag. The tables of docs/measured.md.
 //   GYROD_DATA=... joint_study [key=value ...]
 // Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,

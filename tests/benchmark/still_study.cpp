@@ -1,4 +1,4 @@
-// Sensors at rest: how quiet the estimates are, and how soon a step of the bias comes through. The tables of docs/method.md, "At rest".
+// Sensors at rest: how quiet the estimates are, and how soon a step of the bias comes through. The tables of docs/measured.md, "At rest".
 //   GYROD_DATA=... still_study [calibrated|standstill] [repeats]
 // For every axis of the three ADIS16405 recordings: the ten minutes after the first one, with the noise calibrated from samples 500 000 to
 // 600 000, or learned at rest in that first minute. A step is added after 60 s; its response is the difference of two runs, with it and

@@ -1,5 +1,5 @@
-/// What users see of the default method on recordings of cars and by hand: guards and navigation, as the subcommands print them (docs/method.md, "Beyond
-/// the table"; docs/navigation.md). Skipped where GYROD_DATA is absent.
+/// What users see of the default method on recordings of cars and by hand: guards and navigation, as the subcommands print them (docs/measured.md,
+/// "Guards"; docs/navigation.md). Skipped where GYROD_DATA is absent.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -24,7 +24,7 @@ namespace gyrod::core {
 /// (WhittleFit), and makes the members of the bank (MemberDesigner).
 /// Sizes its workspace once; fit() allocates nothing and is a pure function of its input, but for members that cannot be made and keep
 /// what `model` held. One object per worker; not thread-safe.
-/// Source: docs/method.md, "Moving vehicles".
+/// Source: docs/joint.md, "Slow loop".
 class JointFit {
  public:
   /// Shortest window that is fitted.

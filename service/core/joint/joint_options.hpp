@@ -34,7 +34,7 @@ struct LineOptions {
 };
 
 /// As of the design's rate and window; JointScale tells what becomes of them elsewhere.
-/// Source, where nothing else is said: tests/benchmark/joint_study.cpp and docs/method.md, which give what other values cost.
+/// Source, where nothing else is said: tests/benchmark/joint_study.cpp; docs/decisions/0006 gives what other values cost.
 struct JointOptions {
   EmdOptions emd;
   /// IMFs whose energy is below this part of white noise's in the same IMF are left out at the start. Range 0..10.

@@ -38,7 +38,7 @@ struct BankEstimates {
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
 /// Allocates nothing after construction; finite for finite input. Not thread-safe.
-/// Source: docs/method.md; fixed lag by innovations: Anderson, Moore 1979, "Optimal filtering", section 7.3; weights: Herbster, Warmuth
+/// Source: docs/joint.md; fixed lag by innovations: Anderson, Moore 1979, "Optimal filtering", section 7.3; weights: Herbster, Warmuth
 /// 1998, "Tracking the best expert" (fixed share).
 class KalmanBank {
  public:

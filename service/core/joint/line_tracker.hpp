@@ -49,7 +49,7 @@ struct LineEvidence {
 /// that it did not know to be there; so what decides is where the window has the line's power. What is far
 /// above both is motion, and decides nothing.
 /// A plain value; allocates nothing.
-/// Source: docs/method.md, "The noise's line".
+/// Source: docs/joint.md, "The noise's line".
 class LineTracker {
  public:
   static constexpr std::size_t kPlaces = 41;

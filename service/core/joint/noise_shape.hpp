@@ -23,7 +23,7 @@ struct NoiseShape {
 /// too: with x = ln(power / noise's) its likelihood is
 ///   0.6 N(x; 0, 0.1^2) + 0.4 p(x),   p(x) = exp(-x / 0.6) / 0.6 above 0, and falls as the normal density below.
 /// Level and tilt go in steps of 0.05 in ln(level), 0.1; a tilt is likely as exp(-tilt / 0.3), as there are gyros with white noise and with 0.7.
-/// Source: docs/method.md, "When the noise is not as believed"; docs/decisions/0007.
+/// Source: docs/joint.md, "When the noise is not as believed"; docs/decisions/0007.
 /// @param power mean power of each band, in a unit in which it is 1 where there is white noise as believed and nothing else
 /// @param known whether such a level is believed: then ln(level) is likely as N(0, 0.3^2), within -1 and 1.5; otherwise any level is, within these of
 ///   the quietest band

@@ -21,7 +21,7 @@ constexpr double kRise = 1.15;
 constexpr double kForgetting = 0.03;
 constexpr double kForgettingMeasured = 0.01;
 /// A band this far above noise of a believed colour holds motion. A level that is 20 % too low (1.56 in power), with a colour that is off by a
-/// quarter, stays below it. Source: docs/method.md, "When the noise is not as believed".
+/// quarter, stays below it. Source: docs/joint.md, "When the noise is not as believed".
 constexpr double kMotion = 2.0;
 /// Above the believed level, what the bands show is raised to these powers, their mean and the mean of the quietest three, and the smaller
 /// is taken: the loudest bands are left out as motion, and a level too low costs several times what one too high costs; but vibration,

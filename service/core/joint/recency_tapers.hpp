@@ -12,7 +12,7 @@ namespace gyrod::core {
 ///   t_k(i) = sin(pi k phi(u)) sqrt(phi'(u)),   k = 1..K,   scaled to sum_i t_k(i)^2 = 1.
 /// They stay orthogonal, as sine tapers are; the end of the window counts most.
 /// Sizes its workspace once; no call allocates after that. Not thread-safe.
-/// Source: Riedel, Sidorenko 1995 (sine tapers); the warp is our own (docs/method.md).
+/// Source: Riedel, Sidorenko 1995 (sine tapers); the warp is our own (docs/joint.md).
 class RecencyTapers {
  public:
   /// @param max_samples longest window, at least 8; spectra have the bins of the next power of two

@@ -18,7 +18,7 @@ namespace gyrod::core {
 ///   post_j = (S_j / M)^2 I + S_j (1 - S_j / M),
 /// its autocovariances, narrowed no further than a least bandwidth, hardly any for the slow mode, and Levinson's recursion.
 /// Sizes its workspace once; no call allocates after that. Not thread-safe.
-/// Source: Whittle 1953; Dempster, Laird, Rubin 1977; docs/method.md.
+/// Source: Whittle 1953; Dempster, Laird, Rubin 1977; docs/joint.md.
 class WhittleFit {
  public:
   /// @param transform_samples a power of two, at least 8: frequencies are 2 pi k / transform_samples, k = 0 .. half of it

@@ -240,7 +240,7 @@ TEST_F(MisfitOfAFilter, HasTheLimitsOfTheManual) {
   EXPECT_GT(entered_below, 10U);
 }
 
-/// Spells of the sensor's flag, in parts of all samples, as docs/method.md states them.
+/// Spells of the sensor's flag, in parts of all samples, as docs/joint.md states them.
 void expect_spells(const std::string& name, const FlagRun& made, std::size_t most, std::size_t shortest) {
   const auto lengths = spells(made.misfit);
   const double share = static_cast<double>(flagged(made.misfit)) / static_cast<double>(made.misfit.size());

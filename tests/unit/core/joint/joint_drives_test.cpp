@@ -1,4 +1,4 @@
-/// The two-speed estimator on real drives in real noise, against what must hold of it (docs/method.md, "Measured"). Skipped where
+/// The two-speed estimator on real drives in real noise, against what must hold of it (docs/measured.md, "The drives"). Skipped where
 /// GYROD_DATA is absent.
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ constexpr double kNothing = -1.0;
 struct Setting {
   const char* name;
   test::NoiseChoice noise;
-  /// RMSE of every cell, in parts of the tuned Butterworth's. 1: ahead. Above 1: what the design allows, or what docs/method.md says
+  /// RMSE of every cell, in parts of the tuned Butterworth's. 1: ahead. Above 1: what the design allows, or what docs/measured.md says
   /// is not reached, rounded up to a whole per cent.
   double most = 1.0;
   /// 0: calibrated; kNothing: nothing is believed; else believed white, at this part of its level

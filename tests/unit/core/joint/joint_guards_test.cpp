@@ -53,7 +53,7 @@ std::optional<std::size_t> samples_to_90(double step, std::size_t hold, bool rea
   return std::nullopt;
 }
 
-// Limits are those that gyrod promises. Real noise: docs/method.md, "At rest".
+// Limits are those that gyrod promises. Real noise: docs/measured.md, "At rest".
 TEST(JointGuards, AStepOfTheBiasOfHalfADegreeASecondComesThroughWithinASecond) {
   EXPECT_LE(samples_to_90(0.5, 300, true).value_or(9999), kRate);
   EXPECT_LE(samples_to_90(0.5, 300, false).value_or(9999), kRate);
@@ -131,7 +131,7 @@ TEST(JointGuards, AToneAsWeakAsTheNoiseKeepsItsSize) {
 }
 
 // A new model takes back the step that it would make in the answer. What it takes back is, on real drives, at most three of the ordinary
-// steps from one answer to the next (docs/method.md, "Hand-overs").
+// steps from one answer to the next (docs/measured.md, "Hand-overs").
 TEST(JointGuards, AHandOverMakesNoStep) {
   const Signal z = swaying(6000);
   core::JointFit fit(1024);
@@ -187,7 +187,7 @@ TEST(JointGuards, AKnockIsFollowed) {
 }
 
 // The Butterworth is the one that is best for the yaw axis of WID trial 06 with this noise: order 2, 2.27 Hz at 120 Hz, 12 samples late
-// (docs/method.md, "Turns").
+// (docs/measured.md, "Turns").
 TEST(JointGuards, TakesATurnNoLaterThanTheButterworthTunedForTheDrive) {
   const core::Method joint{"joint", kLag, [](std::span<const double> noisy) {
                              core::Contender contender;

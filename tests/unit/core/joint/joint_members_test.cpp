@@ -95,7 +95,7 @@ TEST(JointMembers, ThePrunedOnesAreThoseOfTheWholeWindow) {
   EXPECT_LT(newest.model.member(MemberKind::kPruned).prediction_variance, predicted(MemberKind::kFull) * 1.1);
 }
 
-// By docs/method.md, "Members": 4 times, a quarter and a sixteenth; the slow mode, which comes last where there is no tone, alike in all.
+// By docs/joint.md, "Members": 4 times, a quarter and a sixteenth; the slow mode, which comes last where there is no tone, alike in all.
 TEST(JointMembers, AreDrivenByPowersOfFour) {
   const Made made = beside_a_line();
   EXPECT_EQ(drives_of(made, MemberKind::kRough), (std::array{1.0, 4.0}));

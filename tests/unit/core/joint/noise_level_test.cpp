@@ -1,4 +1,4 @@
-// Which level the tracker finds in bands of given strength, by the rules of docs/method.md, "When the noise is not as believed".
+// Which level the tracker finds in bands of given strength, by the rules of docs/joint.md, "When the noise is not as believed".
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
