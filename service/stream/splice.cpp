@@ -4,12 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/signal/portable_math.hpp"
+
 namespace gyrod::stream {
 
 Splice::Splice(std::size_t lag_samples) : weights_(lag_samples - lag_samples / 4) {
   const auto size = static_cast<double>(weights_.size());
   for (std::size_t k = 0; k < weights_.size(); ++k)
-    weights_[k] = (1.0 + std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / size)) / 2.0;
+    weights_[k] =
+        (1.0 + core::portable_sine_cosine(0.5 * (static_cast<double>(k) + 0.5) / size).cosine) / 2.0;
   for (Ahead& ahead : ahead_) ahead.answer.resize(weights_.size());
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/joint/kalman_bank.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -34,7 +35,7 @@ void KalmanBank::look_back() noexcept {
     Member& member = members_[i];
     const double before = std::lerp(member.hindsight, prior_[i] / prior_sum_, hindsight_rate_);
     const double behind = options_.likelihood_power * (best - score[i]);
-    member.hindsight = before * std::exp(-std::min(behind, options_.most_evidence));
+    member.hindsight = before * portable_exp(-std::min(behind, options_.most_evidence));
     sum += member.hindsight;
   }
   for (Member& member : members_) member.hindsight /= sum;
@@ -57,12 +58,11 @@ double KalmanBank::hindsight_of(std::size_t index) const noexcept {
 /// A model has come.
 void KalmanBank::expect_hindsight(std::size_t index) noexcept {
   members_[index].rest = std::max(1.0 - model_.members[index].leverage(lag_), kLeastRest);
-  members_[index].log_rest = std::log(members_[index].rest);
+  members_[index].log_rest = portable_log(members_[index].rest);
 }
 
 /// Weights in answers with look-ahead, w (v / u)^b with u what w was at the time that v is of: hindsight takes the place of half of what the
-/// innovations had said by then, or less; what they have said since counts in full, so that a turn is believed as soon. By square roots, which are
-/// the same on every processor.
+/// innovations had said by then, or less; what they have said since counts in full, so that a turn is believed as soon.
 void KalmanBank::mix() noexcept {
   const std::uint64_t time = count_ - 1 - lag_;
   double sum = 0.0;

@@ -11,6 +11,7 @@
 #include "core/denoise/noise_line.hpp"
 #include "core/signal/moments.hpp"
 #include "core/signal/notch.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -178,7 +179,7 @@ void JointFit::start_line(const Tone& tone) noexcept {
   std::array<double, kModeOrder + 1> r{};
   double power = tone.amplitude * tone.amplitude / 2.0;
   for (std::size_t lag = 0; lag < r.size(); ++lag) {
-    r[lag] = power * std::cos(2.0 * std::numbers::pi * tone.frequency_cycles * static_cast<double>(lag));
+    r[lag] = power * portable_sine_cosine(tone.frequency_cycles * static_cast<double>(lag)).cosine;
     power *= options_.line_pole;
   }
   SpectralMode mode = whittle_.mode_of(r, false);
@@ -207,7 +208,7 @@ double JointFit::prior_of_full() noexcept {
   if (pruned_.size() > 1) return 1.0;
   const double bought = 2.0 * (whittle_.log_likelihood(full_) - whittle_.log_likelihood(pruned_));
   if (!(bought < options_.full_evidence)) return 1.0;
-  return std::max(std::exp(0.5 * (bought - options_.full_evidence)), options_.least_full_prior);
+  return std::max(portable_exp(0.5 * (bought - options_.full_evidence)), options_.least_full_prior);
 }
 
 void JointFit::follow_line(LineTracker& tracker, std::size_t samples) noexcept {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace gyrod::core {
 namespace {
@@ -15,8 +16,11 @@ JointScale::JointScale(double sample_rate_hz, std::size_t window_samples) noexce
   constexpr double kStepsPerOctave = 4.0;
   double ratio = 1.0;
   if (sample_rate_hz > 0.0 && std::isfinite(sample_rate_hz)) {
-    const double octaves = std::log2(sample_rate_hz / kDesignRateHz);
-    ratio = std::exp2(std::round(kStepsPerOctave * octaves) / kStepsPerOctave);
+    const double steps = std::round(kStepsPerOctave * std::log2(sample_rate_hz / kDesignRateHz));
+    const double octaves = std::floor(steps / kStepsPerOctave);
+    ratio = std::ldexp(1.0, static_cast<int>(octaves));
+    const double kStep = std::sqrt(std::numbers::sqrt2);  // roots and products are the same on every machine
+    for (double step = kStepsPerOctave * octaves; step < steps; ++step) ratio *= kStep;
   }
   faster_ = std::max(ratio, 1.0);
   const double window = static_cast<double>(kDesignWindowSamples) / static_cast<double>(window_samples);

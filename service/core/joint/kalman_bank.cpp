@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/signal/portable_math.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -73,9 +75,9 @@ void KalmanBank::use(const JointModel& model) noexcept {
 /// What the model makes of the options: its rate, its window, and what that spoke for.
 void KalmanBank::apply_options() noexcept {
   const double full = model_.full_prior;
-  const double agile = std::exp(options_.agile_log_prior);
-  const double drive = std::exp(options_.drive_log_prior);
-  prior_ = {full, 1.0, agile, agile, full * drive, drive, std::exp(options_.still_log_prior)};
+  const double agile = portable_exp(options_.agile_log_prior);
+  const double drive = portable_exp(options_.drive_log_prior);
+  prior_ = {full, 1.0, agile, agile, full * drive, drive, portable_exp(options_.still_log_prior)};
   switching_rate_ = model_.scale.switching_rate(options_.switching_rate);
   hindsight_rate_ = model_.scale.switching_rate(options_.hindsight_rate);
   fit_memory_ = model_.scale.memory(kFitMemory);
@@ -184,7 +186,7 @@ void KalmanBank::settle_weights() noexcept {
       continue;
     }
     const double S = model_.members[i].innovation_variance;
-    member.density = S > 0.0 ? std::pow(S, -0.5 * options_.likelihood_power) : 1.0;
+    member.density = S > 0.0 ? portable_exp(-0.5 * options_.likelihood_power * portable_log(S)) : 1.0;
     prior_sum_ += prior_[i];
     sum += member.weight;
     hindsight += member.hindsight;
@@ -211,7 +213,7 @@ void KalmanBank::weigh(const std::array<double, kMembers>& surprise) noexcept {
     Member& member = members_[i];
     const double before = std::lerp(member.weight, prior_[i] / prior_sum_, switching_rate_);
     const double behind = 0.5 * options_.likelihood_power * (surprise[i] - least);
-    member.weight = before * member.density * std::exp(-std::min(behind, options_.most_evidence));
+    member.weight = before * member.density * portable_exp(-std::min(behind, options_.most_evidence));
     sum += member.weight;
   }
   for (Member& member : members_) {

@@ -8,6 +8,7 @@
 
 #include "core/joint/noise_peak.hpp"
 #include "core/signal/levinson.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -54,7 +55,7 @@ void LineTracker::look_anew(double cycles, const NoiseSpectrum& line) noexcept {
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const auto bin = static_cast<std::size_t>(std::lround(cycles_at(i) * static_cast<double>(kNoiseSegment)));
     const double away = (cycles_at(i) / cycles - 1.0) / kWander;
-    prior_[i] = line[std::min(bin, kNoiseBins - 1)] * std::exp(-0.5 * away * away);
+    prior_[i] = line[std::min(bin, kNoiseBins - 1)] * portable_exp(-0.5 * away * away);
   }
   const double sum = std::accumulate(prior_.begin(), prior_.end(), 0.0);
   constexpr double kEach = 1.0 / static_cast<double>(kPlaces);
@@ -77,8 +78,8 @@ NoiseLine LineTracker::line(const LineOptions& options) const noexcept {
   if (power_ == 0.0) return {};
   const auto [cycles, deviation] = place();
   NoiseLine line{.cycles = cycles, .half_width = options.half_width * cycles + deviation, .power = power_};
-  const double r = std::exp(-2.0 * std::numbers::pi * line.half_width);
-  const std::array<double, 2> a = {2.0 * r * std::cos(2.0 * std::numbers::pi * cycles), -r * r};
+  const double r = portable_exp(-2.0 * std::numbers::pi * line.half_width);
+  const std::array<double, 2> a = {2.0 * r * portable_sine_cosine(cycles).cosine, -r * r};
   std::ranges::copy(a, line.mode.a.begin());
   line.mode.drive = power_ / ar_variance_gain(a);
   return line;
@@ -92,7 +93,7 @@ void LineTracker::observe(const LineEvidence& window, const LineOptions& options
   const double most = std::ranges::max(likelihood);
   double sum = 0.0;
   for (std::size_t i = 0; i < kPlaces; ++i) {
-    weight_[i] *= std::exp(window.share * (likelihood[i] - most));
+    weight_[i] *= portable_exp(window.share * (likelihood[i] - most));
     sum += weight_[i];
   }
   if (!(sum > 0.0) || !std::isfinite(sum)) {
@@ -129,12 +130,15 @@ LineTracker::Places LineTracker::log_likelihoods(const LineEvidence& window,
   Places likelihood{};
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double middle = cycles_at(i);
+    LogarithmOfProduct models;
     for (std::size_t k = first; k < end; ++k) {
       const double distance = 0.5 * static_cast<double>(k) / last - middle;
       const double line = window.power * line_density(distance, half_width);
       const double model = window.rest[k] + std::max(window.explained[k], line);
-      likelihood[i] -= std::log(model) + std::min(window.periodogram[k] / model, kMostTold);
+      models.multiply(model);
+      likelihood[i] -= std::min(window.periodogram[k] / model, kMostTold);
     }
+    likelihood[i] -= models.value();
   }
   return likelihood;
 }

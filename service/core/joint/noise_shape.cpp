@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/signal/portable_math.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -28,20 +30,25 @@ constexpr double kLevelStep = 0.05;
 
 using Tilts = std::array<BandPower, kTilts>;
 
-/// ln of the mean, over each band, of a shape's spectrum at level 1. That of the AR(1) process, (1 - c^2) / (1 + c^2 - 2 c cos w), has the
-/// integral 2 atan(tan(w / 2) (1 + c) / (1 - c)).
+/// ln of the mean, over each band, of a shape's spectrum at level 1. That of the AR(1) process, (1 - c^2) / (1 + c^2 - 2 c cos w) or
+/// 1 + 2 sum_k c^k cos kw, has the integral w + 2 sum_k c^k sin(kw) / k.
 Tilts log_shapes() noexcept {
   const auto integral = [](std::size_t band) {
-    const double half_angle = 0.5 * std::numbers::pi * static_cast<double>(band) / kNoiseBands;
-    return band == kNoiseBands
-               ? std::numbers::pi
-               : 2.0 * std::atan(std::tan(half_angle) * (1.0 + kColourPole) / (1.0 - kColourPole));
+    constexpr int kTerms = 28;  // the next one is below 1e-18
+    const double turns = 0.5 * static_cast<double>(band) / kNoiseBands;
+    double sum = std::numbers::pi * turns;
+    double power = 1.0;
+    for (int k = 1; k <= kTerms; ++k) {
+      power *= kColourPole;
+      sum += power * portable_sine_cosine(k * turns).sine / k;
+    }
+    return 2.0 * sum;
   };
   Tilts shapes{};
   for (std::size_t band = 0; band < kNoiseBands; ++band) {
     const double coloured = (integral(band + 1) - integral(band)) * kNoiseBands / std::numbers::pi;
     for (std::size_t i = 0; i < kTilts; ++i)
-      shapes[i][band] = std::log(std::lerp(1.0, coloured, kTiltStep * static_cast<double>(i)));
+      shapes[i][band] = portable_log(std::lerp(1.0, coloured, kTiltStep * static_cast<double>(i)));
   }
   return shapes;
 }
@@ -60,22 +67,19 @@ double tilt_at(std::size_t i) noexcept {
 double log_likelihood(double excess) noexcept {
   static const double alone = (1.0 - kMotionBands) / (kBandDeviation * std::sqrt(2.0 * std::numbers::pi));
   constexpr double kMoving = kMotionBands / kMotionExcess;
-  static const double log_moving = std::log(kMoving);
-  static const double at_zero = std::log(alone + kMoving);
+  static const double log_moving = portable_log(kMoving);
+  static const double at_zero = portable_log(alone + kMoving);
   const double deviations = excess / kBandDeviation;
   const double log_normal = -0.5 * deviations * deviations;
   if (excess <= 0.0) return std::max(at_zero + log_normal, kLeastLogLikelihood);
   if (deviations > 8.0) return log_moving - excess / kMotionExcess;
-  return std::log(alone * std::exp(log_normal) + kMoving * std::exp(-excess / kMotionExcess));
+  return portable_log(alone * portable_exp(log_normal) + kMoving * portable_exp(-excess / kMotionExcess));
 }
 
 const Tilts& all_log_shapes() noexcept {
   static const Tilts shapes = log_shapes();
   return shapes;
 }
-
-/// To 24 bits: exp and log of another processor's library may differ in the last bit, and results should not.
-double rounded(double value) noexcept { return static_cast<double>(static_cast<float>(value)); }
 
 }  // namespace
 
@@ -85,8 +89,8 @@ NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
   if (!(unit > 0.0)) return {.level = 0.0};
   BandPower log_power{};
   for (std::size_t band = 0; band < kNoiseBands; ++band)
-    log_power[band] = std::log(std::clamp(power[band] / unit, std::numeric_limits<double>::min(),
-                                          std::numeric_limits<double>::max()));
+    log_power[band] = portable_log(std::clamp(power[band] / unit, std::numeric_limits<double>::min(),
+                                              std::numeric_limits<double>::max()));
   std::array<double, kTilts * kLevels> posterior{};
   for (std::size_t i = 0; i < posterior.size(); ++i) {
     const BandPower& shape = shapes[i / kLevels];
@@ -101,19 +105,20 @@ NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
   double level = 0.0;
   double tilt = 0.0;
   for (std::size_t i = 0; i < posterior.size(); ++i) {
-    const double weight = std::exp(posterior[i] - most);
+    const double weight = portable_exp(posterior[i] - most);
     sum += weight;
     level += weight * log_level_at(i);
     tilt += weight * tilt_at(i);
   }
-  return {.level = unit * rounded(std::exp(level / sum)), .tilt = rounded(tilt / sum)};
+  return {.level = unit * portable_exp(level / sum), .tilt = tilt / sum};
 }
 
 std::size_t bands_of_noise_alone(const BandPower& power, const NoiseShape& shape) noexcept {
   const BandPower& spectrum = all_log_shapes()[static_cast<std::size_t>(std::lround(shape.tilt / kTiltStep))];
   std::size_t count = 0;
   for (std::size_t band = 0; band < kNoiseBands; ++band)
-    count += std::abs(std::log(power[band] / shape.level) - spectrum[band]) < 2.0 * kBandDeviation ? 1U : 0U;
+    count +=
+        std::abs(portable_log(power[band] / shape.level) - spectrum[band]) < 2.0 * kBandDeviation ? 1U : 0U;
   return count;
 }
 

@@ -27,7 +27,7 @@ struct NoiseShape {
 /// @param power mean power of each band, in a unit in which it is 1 where there is white noise as believed and nothing else
 /// @param known whether such a level is believed: then ln(level) is likely as N(0, 0.3^2), within -1 and 1.5; otherwise any level is, within these of
 ///   the quietest band
-/// @return level 0 where nothing is known and a band is empty; rounded, so that processors agree
+/// @return level 0 where nothing is known and a band is empty
 [[nodiscard]] NoiseShape likely_shape(const BandPower& power, bool known) noexcept;
 
 /// How many of the bands hold as much as noise of that shape alone would, within two of the deviations above.

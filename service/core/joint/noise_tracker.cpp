@@ -23,11 +23,6 @@ constexpr double kForgettingMeasured = 0.01;
 /// A band this far above noise of a believed colour holds motion. A level that is 20 % too low (1.56 in power), with a colour that is off by a
 /// quarter, stays below it. Source: docs/joint.md, "When the noise is not as believed".
 constexpr double kMotion = 2.0;
-/// Above the believed level, what the bands show is raised to these powers, their mean and the mean of the quietest three, and the smaller
-/// is taken: the loudest bands are left out as motion, and a level too low costs several times what one too high costs; but vibration,
-/// unlike noise, leaves some bands as they were.
-constexpr double kMeanPower = 1.5;
-constexpr double kQuietestPower = 3.0;
 /// What a believed spectrum is off by anyway, as one stretch at rest is not like the next: the quietest three are no louder than believed up to this.
 /// Source: docs/decisions/0007, "What a model at rest is off by".
 constexpr double kModelError = 1.04;
@@ -77,8 +72,10 @@ double level_of(std::span<const double> sorted) noexcept {
   const double all = mean(quiet);
   if (all <= 1.0) return std::max(all, kLowestLevel);
   if (2 * quiet.size() <= sorted.size()) return 1.0;
-  const double quietest = mean(quiet.first(std::min(kQuietest, quiet.size())));
-  return std::max(1.0, std::min(std::pow(all, kMeanPower), std::pow(quietest / kModelError, kQuietestPower)));
+  // To the powers of 1.5 and 3, and the smaller: the loudest bands are left out as motion, and a level too low costs several times what one too
+  // high costs; but vibration, unlike noise, leaves some bands as they were.
+  const double quietest = mean(quiet.first(std::min(kQuietest, quiet.size()))) / kModelError;
+  return std::max(1.0, std::min(all * std::sqrt(all), quietest * quietest * quietest));
 }
 
 /// The same, where bands were as quiet as `bounded` within memory: that takes from a level above 1, and does not make one below it.

@@ -5,31 +5,11 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <complex>
-#include <numbers>
 
-#include <Eigen/Core>
-#include <unsupported/Eigen/FFT>
-
+#include "core/signal/portable_math.hpp"
 #include "core/signal/sums.hpp"
 
 namespace gyrod::core {
-class RecencyTapers::Transform {
- public:
-  explicit Transform(std::size_t length) : spectrum_(length) {
-    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  }
-
-  /// Adds factor |X(w)|^2 to `power`.
-  void add_power(std::span<const double> x, double factor, std::span<double> power) noexcept {
-    fft_.fwd(spectrum_.data(), x.data(), static_cast<Eigen::Index>(x.size()));
-    for (std::size_t bin = 0; bin < power.size(); ++bin) power[bin] += factor * std::norm(spectrum_[bin]);
-  }
-
- private:
-  std::vector<std::complex<double>> spectrum_;
-  Eigen::FFT<double> fft_;
-};
 
 RecencyTapers::RecencyTapers(std::size_t max_samples, std::size_t tapers, double recency)
     : max_samples_(max_samples),
@@ -40,21 +20,15 @@ RecencyTapers::RecencyTapers(std::size_t max_samples, std::size_t tapers, double
       work_(transform_samples_),
       whitened_(max_samples),
       half_sines_(bins()),
-      transform_(std::make_unique<Transform>(transform_samples_)) {
+      transform_(transform_samples_),
+      transformed_(bins()) {
   assert(max_samples >= 8);
   for (std::size_t bin = 0; bin < half_sines_.size(); ++bin) {
-    const double sine =
-        std::sin(std::numbers::pi * static_cast<double>(bin) / static_cast<double>(transform_samples_));
+    const double turns = 0.5 * static_cast<double>(bin) / static_cast<double>(transform_samples_);
+    const double sine = portable_sine_cosine(turns).sine;
     half_sines_[bin] = sine * sine;
   }
-  // The library makes its plan on first use: make it here, so that later calls allocate nothing.
-  std::vector<double> nothing(bins());
-  transform_->add_power(work_, 0.0, nothing);
 }
-
-RecencyTapers::~RecencyTapers() = default;
-RecencyTapers::RecencyTapers(RecencyTapers&&) noexcept = default;
-RecencyTapers& RecencyTapers::operator=(RecencyTapers&&) noexcept = default;
 
 void RecencyTapers::set_recency(double recency) noexcept {
   if (recency == recency_) return;
@@ -69,7 +43,9 @@ void RecencyTapers::spectrum(std::span<const double> x, std::span<double> power)
   for (std::size_t k = 0; k < tapers_; ++k) {
     const auto product = tapered(x, k);
     std::fill(work_.begin() + static_cast<std::ptrdiff_t>(product.size()), work_.end(), 0.0);
-    transform_->add_power(work_, 1.0 / static_cast<double>(tapers_), power);
+    transform_.forward(work_, transformed_);
+    for (std::size_t bin = 0; bin < power.size(); ++bin)
+      power[bin] += std::norm(transformed_[bin]) / static_cast<double>(tapers_);
   }
 }
 
@@ -103,14 +79,15 @@ void RecencyTapers::prepare(std::size_t samples) noexcept {
   assert(samples >= 8 && samples <= max_samples_);
   if (samples == samples_) return;
   samples_ = samples;
+  const double last = portable_exp(recency_);
   double slopes = 0.0;
   for (std::size_t k = 0; k < tapers_; ++k) {
     const std::span<double> row{table_.data() + k * max_samples_, samples};
     for (std::size_t i = 0; i < samples; ++i) {
       const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
-      const double phi = recency_ > 0.0 ? std::expm1(recency_ * u) / std::expm1(recency_) : u;
-      const double slope = recency_ > 0.0 ? std::exp(recency_ * u) : 1.0;
-      row[i] = std::sin(std::numbers::pi * static_cast<double>(k + 1) * phi) * std::sqrt(slope);
+      const double slope = portable_exp(recency_ * u);
+      const double phi = recency_ > 0.0 ? (slope - 1.0) / (last - 1.0) : u;
+      row[i] = portable_sine_cosine(0.5 * static_cast<double>(k + 1) * phi).sine * std::sqrt(slope);
     }
     const double norm = std::sqrt(sum_of(row, [](auto t) { return t * t; }));
     for (double& value : row) value /= norm;

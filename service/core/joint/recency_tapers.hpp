@@ -1,10 +1,12 @@
 /// Recency-warped sine tapers: spectra of a window that look at its newest part most.
 #pragma once
 
+#include <complex>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
+
+#include "core/signal/real_transform.hpp"
 
 namespace gyrod::core {
 
@@ -17,9 +19,6 @@ class RecencyTapers {
  public:
   /// @param max_samples longest window, at least 8; spectra have the bins of the next power of two
   RecencyTapers(std::size_t max_samples, std::size_t tapers, double recency);
-  ~RecencyTapers();
-  RecencyTapers(RecencyTapers&&) noexcept;
-  RecencyTapers& operator=(RecencyTapers&&) noexcept;
 
   /// From here on; see above. Another value than before costs the next call a table.
   void set_recency(double recency) noexcept;
@@ -46,7 +45,6 @@ class RecencyTapers {
   void autocovariance(std::span<const double> x, std::span<double> r) noexcept;
 
  private:
-  class Transform;
   void prepare(std::size_t samples) noexcept;
   [[nodiscard]] std::span<const double> taper(std::size_t k) const noexcept;
   [[nodiscard]] std::span<double> tapered(std::span<const double> x, std::size_t k) noexcept;
@@ -61,7 +59,8 @@ class RecencyTapers {
   std::vector<double> whitened_;
   double bandwidth_ = 0.0;          ///< rms of the tapers' own frequencies, rad a sample
   std::vector<double> half_sines_;  ///< sin^2(w / 2)
-  std::unique_ptr<Transform> transform_;
+  RealTransform transform_;
+  std::vector<std::complex<double>> transformed_;
 };
 
 }  // namespace gyrod::core

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/signal/portable_math.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -79,14 +81,14 @@ void StartLevels::weigh() noexcept {
     const double S = levels_[i].uncertainty[now] + 1.0;
     const double nu = levels_[i].innovation[now];
     const double surprise = variance_ > 0.0 ? nu * nu / (S * variance_) : 0.0;
-    against[i] = (std::isfinite(surprise) ? surprise : std::numeric_limits<double>::max()) + std::log(S);
+    against[i] = (std::isfinite(surprise) ? surprise : std::numeric_limits<double>::max()) + portable_log(S);
     least = std::min(least, against[i]);
   }
   double sum = 0.0;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     Level& level = levels_[i];
     const double before = std::lerp(level.weight, kEven, kShared);
-    level.weight = before * std::exp(-0.5 * kPower * std::min(against[i] - least, kMostAgainst));
+    level.weight = before * portable_exp(-0.5 * kPower * std::min(against[i] - least, kMostAgainst));
     sum += level.weight;
   }
   for (Level& level : levels_) level.weight /= sum;

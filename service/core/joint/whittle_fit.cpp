@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/signal/levinson.hpp"
+#include "core/signal/portable_math.hpp"
 #include "core/signal/sums.hpp"
 
 namespace gyrod::core {
@@ -34,15 +35,15 @@ WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles, E
   const auto length = static_cast<double>(transform_samples);
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     const double angle = 2.0 * std::numbers::pi * bandwidth_cycles * static_cast<double>(lag);
-    narrowing_[lag] = std::exp(-0.5 * angle * angle);
+    narrowing_[lag] = portable_exp(-0.5 * angle * angle);
     const double slow_angle = 2.0 * std::numbers::pi * kSlowBandwidth * static_cast<double>(lag);
-    slow_narrowing_[lag] = std::exp(-0.5 * slow_angle * slow_angle);
+    slow_narrowing_[lag] = portable_exp(-0.5 * slow_angle * slow_angle);
     for (std::size_t k = 0; k < bins_; ++k) {
-      const double w = 2.0 * std::numbers::pi * static_cast<double>(k * lag) / length;
+      const auto [sine, cosine] = portable_sine_cosine(static_cast<double>(k * lag) / length);
       const double both_signs = k == 0 || k + 1 == bins_ ? 1.0 : 2.0;
-      cosines_[lag * bins_ + k] = std::cos(w);
-      sines_[lag * bins_ + k] = std::sin(w);
-      weights_[lag * bins_ + k] = both_signs * std::cos(w) / length;
+      cosines_[lag * bins_ + k] = cosine;
+      sines_[lag * bins_ + k] = sine;
+      weights_[lag * bins_ + k] = both_signs * cosine / length;
     }
   }
 }
@@ -124,11 +125,14 @@ void WhittleFit::prune(ModeSet& modes, double gain) noexcept {
 double WhittleFit::log_likelihood(const ModeSet& modes) noexcept {
   sum_spectra(modes);
   double sum = 0.0;
+  LogarithmOfProduct between;
+  LogarithmOfProduct ends;
   for (std::size_t k = 0; k < bins_; ++k) {
-    const double weight = k == 0 || k + 1 == bins_ ? 0.5 : 1.0;
-    sum -= weight * (std::log(sum_[k]) + observed_[k] / sum_[k]);
+    const bool end = k == 0 || k + 1 == bins_;
+    (end ? ends : between).multiply(sum_[k]);
+    sum -= (end ? 0.5 : 1.0) * observed_[k] / sum_[k];
   }
-  return sum;
+  return sum - between.value() - 0.5 * ends.value();
 }
 
 WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
@@ -178,12 +182,15 @@ void WhittleFit::maximise(SpectralMode& mode, std::span<const double> spectrum) 
 /// What a mode adds to 2 ln L: 2 sum (ln (M - S) + I / (M - S) - ln M - I / M).
 double WhittleFit::gain_of(std::span<const double> spectrum) const noexcept {
   double sum = 0.0;
+  LogarithmOfProduct between;
+  LogarithmOfProduct ends;
   for (std::size_t k = 0; k < bins_; ++k) {
     const double rest = std::max(sum_[k] - spectrum[k], noise_[k]);
-    const double weight = k == 0 || k + 1 == bins_ ? 1.0 : 2.0;
-    sum += weight * (std::log(rest / sum_[k]) + observed_[k] / rest - observed_[k] / sum_[k]);
+    const bool end = k == 0 || k + 1 == bins_;
+    (end ? ends : between).multiply(rest / sum_[k]);
+    sum += (end ? 1.0 : 2.0) * (observed_[k] / rest - observed_[k] / sum_[k]);
   }
-  return sum;
+  return sum + 2.0 * between.value() + ends.value();
 }
 
 }  // namespace gyrod::core

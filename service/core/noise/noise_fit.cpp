@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/signal/levinson.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -27,8 +28,7 @@ double autocovariance(const NoiseSpectrum& power, std::size_t lag) noexcept {
   for (std::size_t k = 0; k < kNoiseBins; ++k) {
     const double weight = k == 0 || k + 1 == kNoiseBins ? 1.0 : 2.0;
     const std::size_t turn = (k * lag) % kNoiseSegment;
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(turn) / kNoiseSegment;
-    sum += weight * power[k] * std::cos(angle);
+    sum += weight * power[k] * portable_sine_cosine(static_cast<double>(turn) / kNoiseSegment).cosine;
   }
   return sum / static_cast<double>(kNoiseSegment);
 }

@@ -2,20 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/signal/levinson.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
 
 /// |1 - c_1 e^-iw - ... - c_p e^-ipw|^2.
 double response(std::span<const double> coefficients, double radians) noexcept {
+  const SineCosine turn = portable_sine_cosine(0.5 * std::numbers::inv_pi * radians);
+  SineCosine at;
   double real = 1.0;
   double imaginary = 0.0;
-  for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    const double angle = radians * static_cast<double>(i + 1);
-    real -= coefficients[i] * std::cos(angle);
-    imaginary += coefficients[i] * std::sin(angle);
+  for (const double coefficient : coefficients) {
+    at = {at.sine * turn.cosine + at.cosine * turn.sine, at.cosine * turn.cosine - at.sine * turn.sine};
+    real -= coefficient * at.cosine;
+    imaginary += coefficient * at.sine;
   }
   return real * real + imaginary * imaginary;
 }

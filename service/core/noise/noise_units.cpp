@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/noise/noise_fit.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -47,10 +48,10 @@ double lag_one_correlation(const NoiseModel& model) noexcept {
   double all = 0.0;
   double lagged = 0.0;
   for (int k = 0; k < kFrequencies; ++k) {
-    const double w = std::numbers::pi * (static_cast<double>(k) + 0.5) / kFrequencies;
-    const double power = noise_spectrum(model, w);
+    const double turns = 0.5 * (static_cast<double>(k) + 0.5) / kFrequencies;
+    const double power = noise_spectrum(model, 2.0 * std::numbers::pi * turns);
     all += power;
-    lagged += power * std::cos(w);
+    lagged += power * portable_sine_cosine(turns).cosine;
   }
   return lagged / all;
 }

@@ -7,10 +7,8 @@
 #include <complex>
 #include <vector>
 
-#include <Eigen/Core>
-#include <unsupported/Eigen/FFT>
-
 #include "core/signal/moments.hpp"
+#include "core/signal/real_transform.hpp"
 
 namespace gyrod::core {
 
@@ -19,25 +17,21 @@ class Autocorrelation::Impl {
   explicit Impl(std::size_t max_samples)
       : length_(std::bit_ceil(std::max<std::size_t>(2 * max_samples, 4))),
         padded_(length_),
-        spectrum_(length_) {
-    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-    // The library makes its plans on first use; make them here, so that later calls allocate nothing.
-    transform();
-    fft_.inv(padded_.data(), spectrum_.data(), static_cast<Eigen::Index>(length_));
-  }
+        spectrum_(length_ / 2 + 1),
+        transform_(length_) {}
 
   /// Power spectrum of the centred, zero-padded sequence into the real parts of bins 0 .. length/2.
   void power_spectrum(std::span<const double> x) noexcept {
     const double centre = mean(x);
     for (std::size_t n = 0; n < x.size(); ++n) padded_[n] = x[n] - centre;
     std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(x.size()), padded_.end(), 0.0);
-    transform();
+    transform_.forward(padded_, spectrum_);
     for (std::size_t bin = 0; bin <= length_ / 2; ++bin) spectrum_[bin] = std::norm(spectrum_[bin]);
   }
 
   void acf(std::span<const double> x, std::span<double> out) noexcept {
     power_spectrum(x);
-    fft_.inv(padded_.data(), spectrum_.data(), static_cast<Eigen::Index>(length_));
+    transform_.inverse(spectrum_, padded_);
     const double energy = padded_[0];
     for (std::size_t lag = 0; lag < out.size(); ++lag) out[lag] = energy > 0.0 ? padded_[lag] / energy : 0.0;
     if (!out.empty()) out[0] = 1.0;
@@ -62,14 +56,10 @@ class Autocorrelation::Impl {
   }
 
  private:
-  void transform() noexcept {
-    fft_.fwd(spectrum_.data(), padded_.data(), static_cast<Eigen::Index>(length_));
-  }
-
   std::size_t length_;
   std::vector<double> padded_;
   std::vector<std::complex<double>> spectrum_;
-  Eigen::FFT<double> fft_;
+  RealTransform transform_;
 };
 
 Autocorrelation::Autocorrelation(std::size_t max_samples) : impl_(std::make_unique<Impl>(max_samples)) {}

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/signal/portable_math.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -28,8 +30,8 @@ void pass_notch(std::span<double> samples, const NotchTerms& of) noexcept {
 }  // namespace
 
 void notch(std::span<double> samples, double cycles, double half_width) noexcept {
-  const double r = std::exp(-2.0 * std::numbers::pi * half_width);
-  const double twice = 2.0 * std::cos(2.0 * std::numbers::pi * cycles);
+  const double r = portable_exp(-2.0 * std::numbers::pi * half_width);
+  const double twice = 2.0 * portable_sine_cosine(cycles).cosine;
   const NotchTerms terms{.zero = twice, .pole = r * twice, .square = r * r};
   pass_notch(samples, terms);
   std::ranges::reverse(samples);

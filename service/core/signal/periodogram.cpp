@@ -7,28 +7,25 @@
 #include <numbers>
 #include <vector>
 
-#include <Eigen/Core>
-#include <unsupported/Eigen/FFT>
-
 #include "core/signal/moments.hpp"
+#include "core/signal/portable_math.hpp"
+#include "core/signal/real_transform.hpp"
 
 namespace gyrod::core {
 
 class Periodogram::Impl {
  public:
-  explicit Impl(std::size_t samples) : taper_(samples), tapered_(samples), spectrum_(samples) {
+  explicit Impl(std::size_t samples)
+      : taper_(samples), tapered_(samples), spectrum_(samples / 2 + 1), transform_(samples) {
     assert(samples >= 8 && std::has_single_bit(samples));
     double squares = 0.0;
     for (std::size_t n = 0; n < samples; ++n) {
-      const double s =
-          std::sin(std::numbers::pi * (static_cast<double>(n) + 0.5) / static_cast<double>(samples));
+      const double turns = 0.5 * (static_cast<double>(n) + 0.5) / static_cast<double>(samples);
+      const double s = portable_sine_cosine(turns).sine;
       taper_[n] = s * s;
       squares += taper_[n] * taper_[n];
     }
     for (double& weight : taper_) weight /= std::sqrt(squares);
-    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-    // The library makes its plan on first use; make it here, so that later calls allocate nothing.
-    fft_.fwd(spectrum_.data(), tapered_.data(), static_cast<Eigen::Index>(samples));
   }
 
   [[nodiscard]] std::size_t samples() const noexcept { return taper_.size(); }
@@ -47,7 +44,7 @@ class Periodogram::Impl {
       squares += rest * rest;
       tapered_[n] = taper_[n] * rest;
     }
-    fft_.fwd(spectrum_.data(), tapered_.data(), static_cast<Eigen::Index>(size));
+    transform_.forward(tapered_, spectrum_);
     for (std::size_t k = 0; k < power.size(); ++k) power[k] = std::norm(spectrum_[k]);
     return squares / count;
   }
@@ -56,7 +53,7 @@ class Periodogram::Impl {
   std::vector<double> taper_;
   std::vector<double> tapered_;
   std::vector<std::complex<double>> spectrum_;
-  Eigen::FFT<double> fft_;
+  RealTransform transform_;
 };
 
 Periodogram::Periodogram(std::size_t samples) : impl_(std::make_unique<Impl>(samples)) {}

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/simulation/portable_math.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {

@@ -1,6 +1,6 @@
 #include "core/simulation/oscillator.hpp"
 
-#include "core/simulation/portable_math.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/simulation/portable_math.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "core/simulation/oscillator.hpp"
-#include "core/simulation/portable_math.hpp"
 #include "unit/core/simulation/simulation_support.hpp"
 
 namespace gyrod::core {
@@ -62,21 +61,6 @@ TEST(Random, NormalHasTheMomentsOfANormalDistribution) {
   EXPECT_NEAR(sum2 / n, 1.0, four * std::sqrt(2.0));
   EXPECT_NEAR(sum3 / n, 0.0, four * std::sqrt(15.0));
   EXPECT_NEAR(sum4 / n, 3.0, four * std::sqrt(96.0));
-}
-
-TEST(PortableMath, LogarithmAgreesWithTheLibrary) {
-  for (double x = 1e-300; x < 1e300; x *= 1.7) {
-    EXPECT_NEAR(portable_log(x), std::log(x), 2e-15 * std::max(1.0, std::abs(std::log(x)))) << x;
-  }
-  EXPECT_EQ(portable_log(1.0), 0.0);
-}
-
-TEST(PortableMath, SineAndCosineAgreeWithTheLibrary) {
-  for (double turns = -0.5; turns <= 0.5; turns += 0.001) {
-    const SineCosine both = portable_sine_cosine(turns);
-    EXPECT_NEAR(both.sine, std::sin(2.0 * std::numbers::pi * turns), 1e-14) << turns;
-    EXPECT_NEAR(both.cosine, std::cos(2.0 * std::numbers::pi * turns), 1e-14) << turns;
-  }
 }
 
 TEST(Oscillator, FollowsTheSineForAMillionSamples) {
