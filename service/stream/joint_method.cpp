@@ -88,6 +88,7 @@ class JointFilter final : public SampleFilter {
     bank_.use(joint);
     noise_level_ = joint.noise.shown_level();
     noise_disagrees_ = joint.noise.disagrees();
+    if (joint.noise.belief() == core::NoiseBelief::kNothing) forget_wrong_noise();
     rescale(joint.scale);
     fit_.fallbacks += joint.fallbacks;
   }
@@ -107,11 +108,17 @@ class JointFilter final : public SampleFilter {
     noise_level_ = 1.0;
     noise_disagrees_ = false;
     unlikely_ = 0;
-    otherwise_ = 0;
+    forget_wrong_noise();
     rescale({});
   }
 
  private:
+  /// Where nothing is believed any more, nothing of it is wrong.
+  void forget_wrong_noise() noexcept {
+    fit_.wrong_noise = false;
+    otherwise_ = 0;
+  }
+
   static Estimate estimate(const core::BankEstimate& answer) noexcept {
     return {answer.rate, answer.variance};
   }

@@ -161,7 +161,7 @@ void BlockRiccati::move_columns() noexcept {
 }
 
 bool BlockRiccati::double_until_settled() noexcept {
-  // 2^35 steps. Growth falls quadratically: after one of kSettled the next would be below rounding.
+  // 2^34 steps. Growth falls quadratically: after one of kSettled the next would be below rounding.
   constexpr int kMaxDoublings = 30;
   constexpr double kSettled = 1e-8;
   for (int k = 0; k < kMaxDoublings; ++k) {

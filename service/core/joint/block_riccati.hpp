@@ -17,7 +17,7 @@ namespace gyrod::core {
 ///   K = X H / S,  G <- G + a H H' a' / S,  a' <- A (I - K H') a',  X <- A (X - K K' S) A' + Q,
 /// and structured doubling goes on from there: W = I + G X,
 ///   a <- a W^-1 a,   G <- G + a W^-1 G a',   X <- X + (W^-1 a)' X a.
-/// About 60 KB; allocates nothing; the same bits on every processor. Not thread-safe.
+/// About 170 KB; allocates nothing; the same bits on every processor. Not thread-safe.
 /// Source: Anderson, Moore 1979, chapter 4; Chu, Fan, Lin, Wang 2004 (doubling).
 class BlockRiccati {
  public:

@@ -16,11 +16,11 @@ JointScale::JointScale(double sample_rate_hz, std::size_t window_samples) noexce
   constexpr double kStepsPerOctave = 4.0;
   double ratio = 1.0;
   if (sample_rate_hz > 0.0 && std::isfinite(sample_rate_hz)) {
-    const double steps = std::round(kStepsPerOctave * std::log2(sample_rate_hz / kDesignRateHz));
-    const double octaves = std::floor(steps / kStepsPerOctave);
-    ratio = std::ldexp(1.0, static_cast<int>(octaves));
-    const double kStep = std::sqrt(std::numbers::sqrt2);  // roots and products are the same on every machine
-    for (double step = kStepsPerOctave * octaves; step < steps; ++step) ratio *= kStep;
+    const int steps =
+        static_cast<int>(std::round(kStepsPerOctave * std::log2(sample_rate_hz / kDesignRateHz)));
+    const double step = std::sqrt(std::numbers::sqrt2);  // roots and products are the same on every machine
+    ratio = std::ldexp(1.0, steps >> 2);
+    for (int k = 0; k < (steps & 3); ++k) ratio *= step;
   }
   faster_ = std::max(ratio, 1.0);
   const double window = static_cast<double>(kDesignWindowSamples) / static_cast<double>(window_samples);

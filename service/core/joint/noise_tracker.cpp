@@ -31,7 +31,12 @@ constexpr std::size_t kQuietest = 3;
 /// Source: docs/decisions/0007, "A level that is far too low".
 constexpr std::size_t kAlikeBands = 4;
 constexpr double kAlike = 1.25;
-/// And where these are below this, the level is believed to be as low.
+/// Between this and kMotion noise of a known colour is told from a road by more bands that are alike: 5 of 8, the quietest left out where it is apart.
+/// Source: docs/decisions/0007, "A level that is a third too low".
+constexpr double kLouder = 1.4;
+constexpr std::size_t kManyBands = 5;
+constexpr double kManyAlike = 1.3;
+/// And where the four quietest are below this, the level is believed to be as low.
 constexpr double kFarBelow = 0.5;
 /// The same where no colour is believed: so many bands are noise alone of a likely shape.
 constexpr std::size_t kFewestAlone = 5;
@@ -166,7 +171,11 @@ void NoiseTracker::find_far_level(const BandPower& power) noexcept {
   const auto quietest = sorted.subspan(outlier ? 1 : 0, std::min(kAlikeBands, sorted.size()));
   const double quiet = mean(quietest);
   const bool below = quiet < kFarBelow;
-  const bool above = !few && sorted.front() > kMotion;
+  const bool many_alike = sorted.size() > kManyBands && (sorted[kManyBands] <= kManyAlike * sorted[1] ||
+                                                         sorted[kManyBands - 1] <= kManyAlike * sorted[0]);
+  const bool louder = belief_in(believed_) == NoiseBelief::kColour && sorted.front() > kLouder &&
+                      (far_level_ > 0.0 || many_alike);
+  const bool above = !few && (sorted.front() > kMotion || louder);
   if (belief_in(believed_) == NoiseBelief::kNothing || weight_ < 1.0 || (!below && !above)) {
     far_level_ = 0.0;
     return;

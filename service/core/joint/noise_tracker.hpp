@@ -40,7 +40,7 @@ class NoiseTracker {
   /// mean^1.5 and (mean of the quietest three / 1.04)^3, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
   /// some; and, as motion comes and goes while noise stays, for more than 1.15 times the least that it has shown no band counts. That is forgotten by a
   /// hundredth a window's length. 1 and white before anything was observed.
-  /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 2, where
+  /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 1.4, where
   /// no band is as quiet as believed and so many are alike that they hold noise and no motion.
   [[nodiscard]] const NoiseShape& shape() const noexcept { return shape_; }
   [[nodiscard]] double level() const noexcept { return shape_.level; }
@@ -49,7 +49,11 @@ class NoiseTracker {
   /// lasts: noise that has become stronger, or shaking at all frequencies, which is not believed to be noise before it has lasted for minutes.
   [[nodiscard]] bool disagrees() const noexcept;
   /// level(), or where all bands have become louder alike what these show, if that is more: what is to be told, not what is believed.
-  [[nodiscard]] double shown_level() const noexcept { return std::max(level(), risen_level_); }
+  /// 1 where nothing is believed: there level() is in the data's unit.
+  [[nodiscard]] double shown_level() const noexcept {
+    return belief_in(believed_) == NoiseBelief::kNothing ? 1.0 : std::max(level(), risen_level_);
+  }
+  [[nodiscard]] NoiseBelief belief() const noexcept { return belief_in(believed_); }
 
  private:
   [[nodiscard]] double level_alike(const BandPower& power) const noexcept;

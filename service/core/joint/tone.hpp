@@ -24,7 +24,7 @@ struct Tone {
 /// Bins that a line spreads over to each side.
 inline constexpr std::size_t kToneReach = 6;
 
-/// From this prominence on a tone is more than chance: none of 10 000 windows of white noise (1024 samples, two tapers, recency 3) has a
+/// From this prominence on a tone is more than chance: none of 10 000 windows of white noise (1024 samples, two tapers of recency 3) has a
 /// line of 20, 54 have one of 12.
 inline constexpr double kSureTone = 25.0;
 

@@ -48,8 +48,8 @@ constexpr std::array<double, 14> inverse_factorials() noexcept {
 double portable_exp(double x) noexcept {
   constexpr double kLeast = -708.0;
   constexpr double kMost = 709.0;
-  constexpr double kLn2High =
-      0x1.62e42feep-1;  // with zeros at its end: a whole number below 2^11 times it is exact
+  // A part of ln 2, with zeros at its end: a whole number below 2^11 times it is exact.
+  constexpr double kLn2High = 0x1.62e42feep-1;  // NOLINT(modernize-use-std-numbers)
   constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
   static constexpr std::array<double, 14> kTerm = inverse_factorials();
   if (!(x >= kLeast)) return std::isnan(x) ? x : 0.0;
@@ -86,7 +86,8 @@ double portable_log(double x) noexcept {
   return 2.0 * s * sum + static_cast<double>(exponent) * std::numbers::ln2;
 }
 
-// A turn is a whole number of quarters, which exchange sine and cosine, and an eighth at the most. Of that, Taylor series in Horner form: x (1 - x^2/(2 3) (1 - x^2/(4 5) (1 - ...))), and the same from 1 for the cosine.
+// A turn is a whole number of quarters, which exchange sine and cosine, and an eighth at the most. Of that, Taylor series in Horner form:
+// x (1 - x^2/(2 3) (1 - x^2/(4 5) (1 - ...))), and the same from 1 for the cosine.
 SineCosine portable_sine_cosine(double turns) noexcept {
   assert(std::abs(turns) < 0x1p50);
   constexpr int kTerms = 9;  // |x| <= pi / 4: the next one is below 2e-19

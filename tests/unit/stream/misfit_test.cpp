@@ -135,7 +135,7 @@ class MisfitOfAFilter : public ::testing::Test {
     filter_ = factory_.filter(16);
     use(rate_hz, 1.0);
   }
-  /// @param believed the noise's variance, in parts of what it is
+  /// @param believed the noise's variance, in parts of what it is; 0: nothing is
   void use(double rate_hz, double believed) {
     const auto noise = testing::times(testing::white_noise(1024, 1), kStd);
     const auto model = factory_.model();
@@ -143,7 +143,7 @@ class MisfitOfAFilter : public ::testing::Test {
     core::WindowReport report;
     const WindowInput window{.samples = noise,
                              .sample_rate_hz = rate_hz,
-                             .noise_source = NoiseSource::kCalibrated,
+                             .noise_source = believed > 0.0 ? NoiseSource::kCalibrated : NoiseSource::kNone,
                              .noise = core::white_noise(believed * kStd * kStd)};
     for (int windows = 0; windows < 32; ++windows) method->fit(window, *model, report);
     filter_->use(*model);
@@ -219,6 +219,18 @@ TEST_F(MisfitOfAFilter, AsksForTheSameSecondsOfNoiseThatIsNotAsBelieved) {
 }
 
 // Entered where the mean of the innovations leaves 0.7 to 2; left within 0.8 to 1.6, 128 samples later at the earliest.
+// A sensor may forget what it believed, as where a level that was learned is far too high. Then nothing is wrong, and there is nothing to be a part of.
+TEST_F(MisfitOfAFilter, IsOverWhereNothingIsBelievedAnyMore) {
+  use(100.0, 9.0);
+  after(1.0, 1000);
+  ASSERT_TRUE(filter_->model_fit().wrong_noise);
+  ASSERT_NEAR(filter_->model_fit().noise_ratio, 1.0 / 3.0, 0.05);
+  use(100.0, 0.0);
+  filter_->step(0.0);
+  EXPECT_FALSE(filter_->model_fit().wrong_noise);
+  EXPECT_EQ(filter_->model_fit().noise_ratio, 1.0);
+}
+
 TEST_F(MisfitOfAFilter, HasTheLimitsOfTheManual) {
   std::size_t lasted = 0;
   std::size_t entered_above = 0;

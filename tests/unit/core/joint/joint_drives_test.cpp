@@ -156,7 +156,7 @@ TEST(JointDrivesBelieved, MayBeWrongByAFactor) {
   for (const test::DriveRow& row : scored({}).rows) {
     if (row.axis == 0) continue;
     const test::ByLag best = test::best_butterworth(row, {});
-    for (const double level : {0.1, 4.0}) {
+    for (const double level : {0.1, 0.7, 4.0}) {
       for (const NoiseModel& noise : {scaled(calibrated(row), level), believed_white(row, level)}) {
         const test::ByLag ours = test::joint_figures(row, noise, {}).rmse;
         for (std::size_t i = 0; i < ours.size(); ++i)
