@@ -13,14 +13,15 @@ constexpr double kMost = 0.1;
 }  // namespace
 
 JointScale::JointScale(double sample_rate_hz, std::size_t window_samples) noexcept {
-  constexpr double kStepsPerOctave = 4.0;
+  constexpr int kStepsPerOctave = 4;
   double ratio = 1.0;
   if (sample_rate_hz > 0.0 && std::isfinite(sample_rate_hz)) {
     const int steps =
         static_cast<int>(std::round(kStepsPerOctave * std::log2(sample_rate_hz / kDesignRateHz)));
     const double step = std::sqrt(std::numbers::sqrt2);  // roots and products are the same on every machine
-    ratio = std::ldexp(1.0, steps >> 2);
-    for (int k = 0; k < (steps & 3); ++k) ratio *= step;
+    const int octaves = static_cast<int>(std::floor(static_cast<double>(steps) / kStepsPerOctave));
+    ratio = std::ldexp(1.0, octaves);
+    for (int k = kStepsPerOctave * octaves; k < steps; ++k) ratio *= step;
   }
   faster_ = std::max(ratio, 1.0);
   const double window = static_cast<double>(kDesignWindowSamples) / static_cast<double>(window_samples);

@@ -12,69 +12,46 @@
 
 namespace gyrod::core {
 
-class Autocorrelation::Impl {
- public:
-  explicit Impl(std::size_t max_samples)
-      : length_(std::bit_ceil(std::max<std::size_t>(2 * max_samples, 4))),
-        padded_(length_),
-        spectrum_(length_ / 2 + 1),
-        transform_(length_) {}
+Autocorrelation::Autocorrelation(std::size_t max_samples)
+    : padded_(std::bit_ceil(std::max<std::size_t>(2 * max_samples, 4))),
+      transform_(padded_.size()),
+      spectrum_(transform_.bins()) {}
 
-  /// Power spectrum of the centred, zero-padded sequence into the real parts of bins 0 .. length/2.
-  void power_spectrum(std::span<const double> x) noexcept {
-    const double centre = mean(x);
-    for (std::size_t n = 0; n < x.size(); ++n) padded_[n] = x[n] - centre;
-    std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(x.size()), padded_.end(), 0.0);
-    transform_.forward(padded_, spectrum_);
-    for (std::size_t bin = 0; bin <= length_ / 2; ++bin) spectrum_[bin] = std::norm(spectrum_[bin]);
-  }
-
-  void acf(std::span<const double> x, std::span<double> out) noexcept {
-    power_spectrum(x);
-    transform_.inverse(spectrum_, padded_);
-    const double energy = padded_[0];
-    for (std::size_t lag = 0; lag < out.size(); ++lag) out[lag] = energy > 0.0 ? padded_[lag] / energy : 0.0;
-    if (!out.empty()) out[0] = 1.0;
-  }
-
-  double acf_variance(std::span<const double> x) noexcept {
-    power_spectrum(x);
-    double sum = 0.0;          // over all bins: length * r_0
-    double sum_squares = 0.0;  // over all bins: length * sum of r_l^2 over lags -(N-1) .. N-1
-    for (std::size_t bin = 0; bin <= length_ / 2; ++bin) {
-      const double power = spectrum_[bin].real();
-      const double weight = bin == 0 || bin == length_ / 2 ? 1.0 : 2.0;
-      sum += weight * power;
-      sum_squares += weight * power * power;
-    }
-    if (!(sum > 0.0)) return 0.0;
-    const double all_lags = static_cast<double>(length_) * (sum_squares / sum / sum);
-    const double count = static_cast<double>(x.size());
-    const double mean_square = (all_lags + 1.0) / 2.0 / count;
-    const double mean_rho = 0.5 / count;
-    return std::max(mean_square - mean_rho * mean_rho, 0.0);
-  }
-
- private:
-  std::size_t length_;
-  std::vector<double> padded_;
-  std::vector<std::complex<double>> spectrum_;
-  RealTransform transform_;
-};
-
-Autocorrelation::Autocorrelation(std::size_t max_samples) : impl_(std::make_unique<Impl>(max_samples)) {}
-Autocorrelation::~Autocorrelation() = default;
-Autocorrelation::Autocorrelation(Autocorrelation&&) noexcept = default;
-Autocorrelation& Autocorrelation::operator=(Autocorrelation&&) noexcept = default;
+/// Of the centred, zero-padded sequence, into the real parts of the spectrum.
+void Autocorrelation::power_spectrum(std::span<const double> x) noexcept {
+  const double centre = mean(x);
+  for (std::size_t n = 0; n < x.size(); ++n) padded_[n] = x[n] - centre;
+  std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(x.size()), padded_.end(), 0.0);
+  transform_.forward(padded_, spectrum_);
+  for (std::complex<double>& bin : spectrum_) bin = std::norm(bin);
+}
 
 void Autocorrelation::acf(std::span<const double> x, std::span<double> acf) noexcept {
   assert(!x.empty() && acf.size() <= x.size());
-  impl_->acf(x, acf);
+  power_spectrum(x);
+  transform_.inverse(spectrum_, padded_);
+  const double energy = padded_[0];
+  for (std::size_t lag = 0; lag < acf.size(); ++lag) acf[lag] = energy > 0.0 ? padded_[lag] / energy : 0.0;
+  if (!acf.empty()) acf[0] = 1.0;
 }
 
 double Autocorrelation::acf_variance(std::span<const double> x) noexcept {
   assert(!x.empty());
-  return impl_->acf_variance(x);
+  power_spectrum(x);
+  double sum = 0.0;          // over all bins: length * r_0
+  double sum_squares = 0.0;  // over all bins: length * sum of r_l^2 over lags -(N-1) .. N-1
+  for (std::size_t bin = 0; bin < spectrum_.size(); ++bin) {
+    const double power = spectrum_[bin].real();
+    const double weight = bin == 0 || bin + 1 == spectrum_.size() ? 1.0 : 2.0;
+    sum += weight * power;
+    sum_squares += weight * power * power;
+  }
+  if (!(sum > 0.0)) return 0.0;
+  const double all_lags = static_cast<double>(transform_.length()) * (sum_squares / sum / sum);
+  const double count = static_cast<double>(x.size());
+  const double mean_square = (all_lags + 1.0) / 2.0 / count;
+  const double mean_rho = 0.5 / count;
+  return std::max(mean_square - mean_rho * mean_rho, 0.0);
 }
 
 void partial_autocorrelation(std::span<const double> acf, std::span<double> pacf) noexcept {

@@ -1,9 +1,12 @@
 /// Autocorrelation and partial autocorrelation of finite sequences, by FFT.
 #pragma once
 
+#include <complex>
 #include <cstddef>
-#include <memory>
 #include <span>
+#include <vector>
+
+#include "core/signal/real_transform.hpp"
 
 namespace gyrod::core {
 
@@ -15,9 +18,6 @@ class Autocorrelation {
  public:
   /// @param max_samples longest sequence that will be given, at least 1
   explicit Autocorrelation(std::size_t max_samples);
-  ~Autocorrelation();
-  Autocorrelation(Autocorrelation&&) noexcept;
-  Autocorrelation& operator=(Autocorrelation&&) noexcept;
 
   /// Writes rho_0 .. rho_(acf.size()-1). A constant sequence has no ACF: rho_0 = 1 and zeros are written.
   /// @pre 1 <= x.size() <= max_samples, acf.size() <= x.size()
@@ -30,8 +30,11 @@ class Autocorrelation {
   [[nodiscard]] double acf_variance(std::span<const double> x) noexcept;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  void power_spectrum(std::span<const double> x) noexcept;
+
+  std::vector<double> padded_;
+  RealTransform transform_;
+  std::vector<std::complex<double>> spectrum_;
 };
 
 /// Partial autocorrelation phi_11 .. phi_pp from an ACF, by the Durbin-Levinson recursion.

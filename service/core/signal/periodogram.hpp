@@ -1,9 +1,12 @@
 /// Power spectrum of a short stretch of a signal, to be averaged over many.
 #pragma once
 
+#include <complex>
 #include <cstddef>
-#include <memory>
 #include <span>
+#include <vector>
+
+#include "core/signal/real_transform.hpp"
 
 namespace gyrod::core {
 
@@ -16,13 +19,10 @@ class Periodogram {
  public:
   /// @pre samples is a power of two, at least 8
   explicit Periodogram(std::size_t samples);
-  ~Periodogram();
-  Periodogram(Periodogram&&) noexcept;
-  Periodogram& operator=(Periodogram&&) noexcept;
 
-  [[nodiscard]] std::size_t samples() const noexcept;
+  [[nodiscard]] std::size_t samples() const noexcept { return taper_.size(); }
   /// N/2 + 1.
-  [[nodiscard]] std::size_t bins() const noexcept;
+  [[nodiscard]] std::size_t bins() const noexcept { return transform_.bins(); }
 
   /// Writes P_0 .. P_(N/2).
   /// @return (1/N) sum of (x_n - line_n)^2, unit^2, without the taper
@@ -30,8 +30,10 @@ class Periodogram {
   double transform(std::span<const double> x, std::span<double> power) noexcept;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::vector<double> taper_;
+  std::vector<double> tapered_;
+  RealTransform transform_;
+  std::vector<std::complex<double>> spectrum_;
 };
 
 }  // namespace gyrod::core

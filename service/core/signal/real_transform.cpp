@@ -40,12 +40,15 @@ struct PortableFft : Eigen::internal::kissfft_impl<double> {
 
 class RealTransform::Impl {
  public:
-  explicit Impl(std::size_t length) : length_(length), x_(length), spectrum_(length / 2 + 1) {
+  explicit Impl(std::size_t length) : length_(length) {
+    assert(length >= 4 && length % 4 == 0);
     fft_.SetFlag(Eigen::FFT<double, PortableFft>::HalfSpectrum);
     fft_.impl().make_plans(static_cast<int>(length));
-    // Its own work space comes with first use.
-    forward(x_, spectrum_);
-    inverse(spectrum_, x_);
+    // The library's own work space comes with first use: here, so that later calls allocate nothing.
+    std::vector<double> x(length);
+    std::vector<std::complex<double>> spectrum(length / 2 + 1);
+    forward(x, spectrum);
+    inverse(spectrum, x);
   }
 
   [[nodiscard]] std::size_t length() const noexcept { return length_; }
@@ -59,14 +62,10 @@ class RealTransform::Impl {
 
  private:
   std::size_t length_;
-  std::vector<double> x_;
-  std::vector<std::complex<double>> spectrum_;
   Eigen::FFT<double, PortableFft> fft_;
 };
 
-RealTransform::RealTransform(std::size_t length) : impl_(std::make_unique<Impl>(length)) {
-  assert(length >= 4 && length % 4 == 0);
-}
+RealTransform::RealTransform(std::size_t length) : impl_(std::make_unique<Impl>(length)) {}
 RealTransform::~RealTransform() = default;
 RealTransform::RealTransform(RealTransform&&) noexcept = default;
 RealTransform& RealTransform::operator=(RealTransform&&) noexcept = default;
