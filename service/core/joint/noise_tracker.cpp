@@ -31,15 +31,15 @@ constexpr std::size_t kQuietest = 3;
 /// Source: docs/decisions/0007, "A level that is far too low".
 constexpr std::size_t kAlikeBands = 4;
 constexpr double kAlike = 1.25;
+/// And where these are below this, the level is believed to be as low.
+constexpr double kFarBelow = 0.5;
+/// The same where no colour is believed: so many bands are noise alone of a likely shape.
+constexpr std::size_t kFewestAlone = 5;
 /// Between this and kMotion noise of a known colour is told from a road by more bands that are alike: 5 of 8, the quietest left out where it is apart.
 /// Source: docs/decisions/0007, "A level that is a third too low".
 constexpr double kLouder = 1.4;
 constexpr std::size_t kManyBands = 5;
 constexpr double kManyAlike = 1.3;
-/// And where the four quietest are below this, the level is believed to be as low.
-constexpr double kFarBelow = 0.5;
-/// The same where no colour is believed: so many bands are noise alone of a likely shape.
-constexpr std::size_t kFewestAlone = 5;
 /// Below the believed level all that the bands show is believed, as motion only adds; so far, in case a sensor was asleep.
 constexpr double kLowestLevel = 1e-3;
 /// Beyond these the noise is said to be wrong: the spread of level() on the right noise is 0.9 to 1.3.
@@ -87,6 +87,15 @@ double level_of(std::span<const double> sorted) noexcept {
 double level_of(const Sorted& ratio, const Sorted& bounded) noexcept {
   const double level = level_of(ratio.all());
   return level <= 1.0 ? level : std::clamp(level_of(bounded.all()), 1.0, level);
+}
+
+/// The quietest bands, or where the quietest is apart, as that of a line which is believed to be there, those next to it: so many, if they are
+/// within a factor of one another; else none.
+std::span<const double> alike(std::span<const double> sorted, std::size_t count, double factor) noexcept {
+  for (std::size_t first = 0; first < 2 && first + count <= sorted.size(); ++first) {
+    if (sorted[first + count - 1] <= factor * sorted[first]) return sorted.subspan(first, count);
+  }
+  return {};
 }
 
 std::span<const double> bins_of(std::span<const double> spectrum, std::size_t band) noexcept {
@@ -154,9 +163,9 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
 double NoiseTracker::level_alike(const BandPower& power) const noexcept {
   const Sorted sorted(power, believed_power_);
   const auto all = sorted.all();
-  const bool alike =
+  const bool all_alike =
       all.size() >= kAlikeBands && all.front() > kMotion && all[all.size() - 2] <= kAlike * all[1];
-  return alike ? mean(all.subspan(1, all.size() - 2)) : 0.0;
+  return all_alike ? mean(all.subspan(1, all.size() - 2)) : 0.0;
 }
 
 /// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that. It counts for as
@@ -165,14 +174,10 @@ void NoiseTracker::find_far_level(const BandPower& power) noexcept {
   const Sorted ordered(power, believed_power_);
   const auto sorted = ordered.all();
   const bool few = sorted.size() <= kAlikeBands;
-  // The quietest may be that of a line which is believed to be there.
-  const bool outlier =
-      !few && sorted[kAlikeBands - 1] > kAlike * sorted[0] && sorted[kAlikeBands] <= kAlike * sorted[1];
-  const auto quietest = sorted.subspan(outlier ? 1 : 0, std::min(kAlikeBands, sorted.size()));
-  const double quiet = mean(quietest);
+  const auto four = alike(sorted, kAlikeBands, kAlike);
+  const double quiet = mean(four.empty() ? sorted.first(std::min(kAlikeBands, sorted.size())) : four);
   const bool below = quiet < kFarBelow;
-  const bool many_alike = sorted.size() > kManyBands && (sorted[kManyBands] <= kManyAlike * sorted[1] ||
-                                                         sorted[kManyBands - 1] <= kManyAlike * sorted[0]);
+  const bool many_alike = sorted.size() > kManyBands && !alike(sorted, kManyBands, kManyAlike).empty();
   const bool louder = belief_in(believed_) == NoiseBelief::kColour && sorted.front() > kLouder &&
                       (far_level_ > 0.0 || many_alike);
   const bool above = !few && (sorted.front() > kMotion || louder);
@@ -182,8 +187,7 @@ void NoiseTracker::find_far_level(const BandPower& power) noexcept {
   }
   NoiseShape likely = likely_shape(power, false);
   likely.level = std::max(likely.level, kLowestLevel);
-  const bool found = below || quietest.back() <= kAlike * quietest.front() ||
-                     bands_of_noise_alone(power, likely) >= kFewestAlone;
+  const bool found = below || !four.empty() || bands_of_noise_alone(power, likely) >= kFewestAlone;
   const bool whole = belief_in(believed_) == NoiseBelief::kLevel;
   if (whole && (found || far_level_ > 0.0)) shape_ = likely;
   const double level = whole ? likely.level : std::max(quiet, kLowestLevel);
