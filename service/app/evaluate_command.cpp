@@ -35,7 +35,7 @@ core::SampleRange range_of(const EvaluateFlags& flags, const EvaluationRows& row
   if (!flags.to.empty()) range.end = std::min(sample_of(flags.to, rows.rate_hz), rows.samples);
   constexpr std::size_t kFewest = 100;
   if (range.begin + kFewest > range.end) {
-    throw CLI::ValidationError("--from", "and --to leave the samples " + std::to_string(range.begin) +
+    throw CLI::ValidationError("--from", "with --to it leaves the samples " + std::to_string(range.begin) +
                                              " to " + std::to_string(range.end) + " of " +
                                              std::to_string(rows.samples) + "; expected at least 100");
   }

@@ -51,8 +51,9 @@ void check_lags(const EvaluationOptions& options) {
     const std::size_t most = largest_lag(name, options.settings);
     const std::size_t given = options.lag_samples.back();
     if (given <= most) continue;
-    throw CLI::ValidationError("--lag", "or denoise.lag_samples is " + std::to_string(given) + "; " + name +
-                                            " takes at most " + std::to_string(most));
+    throw CLI::ValidationError("--lag", "the largest, of its own and denoise.lag_samples, is " +
+                                            std::to_string(given) + "; expected at most " +
+                                            std::to_string(most) + " for " + name);
   }
 }
 

@@ -122,7 +122,7 @@ files::Record load_noise(const EvaluationInput& input, double rate_hz) {
   return noise;
 }
 
-/// "2 rows cannot be read and are left out, 3 samples are refused, 5 are bridged by straight lines", of what there is any of.
+/// "2 rows cannot be read and are left out, 3 samples are refused, 5 samples are bridged by straight lines", of what there is any of.
 std::string losses_of(const files::Record::Counts& counts) {
   std::string text;
   const auto add = [&](std::uint64_t count, const char* one, const char* more) {
@@ -131,7 +131,7 @@ std::string losses_of(const files::Record::Counts& counts) {
   add(counts.broken, " row cannot be read and is left out", " rows cannot be read and are left out");
   add(counts.refused, " sample is refused (no number, out of range, not in order)",
       " samples are refused (no numbers, out of range, not in order)");
-  add(counts.bridged, " is bridged by a straight line", " are bridged by straight lines");
+  add(counts.bridged, " sample is bridged by a straight line", " samples are bridged by straight lines");
   return text;
 }
 

@@ -121,8 +121,11 @@ TEST_F(EvaluateInput, SaysWhatIsWrong) {
        "beyond the 6000 good samples"},
       {{}, {"--from", "5950"}, ExitCode::kWrongUsage, "at least 100"},
       {{}, {"--from", "soon"}, ExitCode::kWrongUsage, "expected samples, as 2400"},
-      {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "joint takes at most 32"},
-      {{}, {"--lag", "300", "--methods", "improved"}, ExitCode::kWrongUsage, "takes at most 256"},
+      {{}, {"--lag", "300"}, ExitCode::kWrongUsage, "expected at most 32 for joint"},
+      {{},
+       {"--lag", "300", "--methods", "improved"},
+       ExitCode::kWrongUsage,
+       "expected at most 256 for improved"},
       {{}, {"--methods", "magic"}, ExitCode::kWrongUsage, "magic"},
       {{}, {"-o", path("in.csv")}, ExitCode::kFileTrouble, "in.csv"},
   };

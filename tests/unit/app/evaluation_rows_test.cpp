@@ -86,7 +86,7 @@ TEST_F(EvaluationRowsTest, TellWhatIsLostInEitherFile) {
   for (const char* name : {"in.csv", "still.csv"}) {
     EXPECT_THAT(cautions, Contains(AllOf(HasSubstr(name), HasSubstr("2 rows cannot be read and are left out"),
                                          HasSubstr("1 sample is refused"),
-                                         HasSubstr("3 are bridged by straight lines"))));
+                                         HasSubstr("3 samples are bridged by straight lines"))));
   }
 }
 
