@@ -197,6 +197,13 @@ std::string calibration_table(const settings::NoiseCalibration& calibration) {
                         core::angle_random_walk(model, rate) * kDegPerRad * kSqrtSecondsPerSqrtHour,
                         core::lag_one_correlation(model));
   }
+  for (std::size_t a = 0; a < calibration.models.size(); ++a) {
+    for (const core::SpectralLine& line : calibration.models[a].lines()) {
+      text += fmt::format("{} has a narrow line at {:.4g} Hz: {:.4f} deg/s, {:.0f} % of its noise's power\n",
+                          "xyz"[a], line.cycles * rate, std::sqrt(line.variance) * kDegPerRad,
+                          100.0 * line.variance / core::noise_variance(calibration.models[a]));
+    }
+  }
   return text;
 }
 

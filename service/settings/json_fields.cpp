@@ -79,6 +79,16 @@ std::vector<double> JsonFields::numbers(std::string_view key, std::size_t most) 
   return result;
 }
 
+std::vector<JsonFields> JsonFields::list(std::string_view key, std::size_t most) const {
+  const json* value = find(key);
+  if (value == nullptr || !value->is_array() || value->size() > most)
+    fail(key, "a list of at most " + std::to_string(most) + " objects");
+  std::vector<JsonFields> result;
+  for (std::size_t i = 0; i < value->size(); ++i)
+    result.emplace_back(file_, (*value)[i], prefix_ + std::string(key) + "." + std::to_string(i) + ".");
+  return result;
+}
+
 std::string JsonFields::text(std::string_view key) const {
   const json* value = find(key);
   if (value == nullptr || !value->is_string()) fail(key, "a text");

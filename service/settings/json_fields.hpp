@@ -36,6 +36,7 @@ class JsonFields {
   [[nodiscard]] double positive(std::string_view key) const;
   [[nodiscard]] double not_negative(std::string_view key) const;
   [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t most) const;
+  [[nodiscard]] std::vector<JsonFields> list(std::string_view key, std::size_t most) const;
   [[nodiscard]] std::string text(std::string_view key) const;
 
   /// "FILE: KEY is VALUE; expected EXPECTED", "FILE: KEY is missing; ..."

@@ -66,7 +66,7 @@ void read_axes(const JsonFields& root, NoiseCalibration& calibration) {
   for (std::size_t a = 0; a < kAxisNames.size(); ++a) {
     if (!axes.has(kAxisNames[a])) continue;
     const JsonFields axis = axes.fields(kAxisNames[a]);
-    axis.allow({"white_std_radps", "colour_std_radps", "colour", "bias_radps"});
+    axis.allow({"white_std_radps", "colour_std_radps", "colour", "lines", "bias_radps"});
     calibration.models[a] = model_of(axis);
     if (axis.has("bias_radps")) calibration.bias_radps[a] = axis.number("bias_radps");
   }

@@ -4,13 +4,34 @@
 #include <cmath>
 
 namespace gyrod::settings {
+namespace {
+
+constexpr const char* kFrequency = "cycles_per_sample";
+constexpr const char* kHalfWidth = "half_width_cycles_per_sample";
+
+core::SpectralLine line_of(const JsonFields& fields) {
+  fields.allow({kFrequency, kHalfWidth, "std_radps"});
+  const double deviation = fields.positive("std_radps");
+  const core::SpectralLine line{.cycles = fields.positive(kFrequency),
+                                .half_width = fields.positive(kHalfWidth),
+                                .variance = deviation * deviation};
+  if (!(line.cycles < 0.5)) fields.fail(kFrequency, "a number below 0.5, half the sample rate");
+  return line;
+}
+
+}  // namespace
 
 nlohmann::json model_json(const core::NoiseModel& model) {
   nlohmann::json json = {{"white_std_radps", std::sqrt(model.white_variance)}};
-  if (model.colour_order == 0) return json;
-  json["colour_std_radps"] = std::sqrt(model.colour_variance);
-  const auto colour = model.colour_coefficients();
-  json["colour"] = std::vector<double>(colour.begin(), colour.end());
+  if (model.colour_order > 0) {
+    json["colour_std_radps"] = std::sqrt(model.colour_variance);
+    const auto colour = model.colour_coefficients();
+    json["colour"] = std::vector<double>(colour.begin(), colour.end());
+  }
+  for (const core::SpectralLine& line : model.lines()) {
+    json["lines"].push_back(
+        {{kFrequency, line.cycles}, {kHalfWidth, line.half_width}, {"std_radps", std::sqrt(line.variance)}});
+  }
   return json;
 }
 
@@ -24,6 +45,10 @@ core::NoiseModel model_of(const JsonFields& fields) {
     const double drive = fields.not_negative("colour_std_radps");
     model.colour_variance = drive * drive;
     if (!core::is_usable(model)) fields.fail("colour", "coefficients of a stable model");
+  }
+  if (fields.has("lines")) {
+    for (const JsonFields& line : fields.list("lines", core::kMaxNoiseLines))
+      model.line[model.line_count++] = line_of(line);
   }
   if (!core::is_usable(model)) fields.fail("white_std_radps", "a standard deviation above 0");
   return model;

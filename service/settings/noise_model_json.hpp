@@ -8,8 +8,8 @@
 
 namespace gyrod::settings {
 
-/// {"white_std_radps": sqrt(white_variance), "colour_std_radps": sqrt(colour_variance), "colour": [c_1 .. c_p]}; without the latter two
-/// where there is no colour.
+/// {"white_std_radps": sqrt(white_variance), "colour_std_radps": sqrt(colour_variance), "colour": [c_1 .. c_p], "lines":
+/// [{"cycles_per_sample": .., "half_width_cycles_per_sample": .., "std_radps": sqrt(variance)}, ..]}; without what the noise does not have.
 [[nodiscard]] nlohmann::json model_json(const core::NoiseModel& model);
 
 /// The other way round. Other keys of the object are not looked at.

@@ -42,7 +42,7 @@ struct JointState final : Model {
         sample_rate_hz > 0.0 && std::abs(rate_hz - sample_rate_hz) > kOtherRate * sample_rate_hz;
     if (other) {
       joint.noise = {};
-      joint.line = {};
+      joint.lines = {};
       joint.noise_variance = 0.0;
     }
     if (other || sample_rate_hz == 0.0) sample_rate_hz = rate_hz;

@@ -1,10 +1,11 @@
 // The two-speed estimator beside Butterworth filters tuned on the truth, on a car's reference gyro plus the noise of a still one:
 // RMSE in deg/s over samples 2400..9600, by lag. The tables of docs/measured.md.
 //   GYROD_DATA=... joint_study [key=value ...]
-// Keys (defaults): noise=1x (ADIS16405 run and axis), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
+// Keys (defaults): noise=1x (ADIS16405 run and axis; mx: MPU6050), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), motion=car (hand: recordings of sensors
+// (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), sine=0 (amplitude of a sine in the noise and in what it is calibrated on, in deviations of the noise), sine_at=0.2, second_sine_at=0 (cycles per sample; 0: none),
+// begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), motion=car (hand: recordings of sensors
 // that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; these have no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "joint_study_options.hpp"
 #include "support/joint_drive.hpp"
@@ -31,6 +33,7 @@ test::NoiseChoice noise_choice(const Arguments& arguments) {
   noise.file = std::string("adis16405_imu") + choice.at(0) + "_static_100hz.csv.gz";
   noise.axis = static_cast<std::size_t>(choice.at(1) - 'x');
   noise.start = static_cast<std::size_t>(number(arguments, "start", 0));
+  if (choice.at(0) == 'm') return test::mpu6050_noise(noise.axis, noise.start);
   return noise;
 }
 
@@ -107,6 +110,8 @@ int study(const Arguments& arguments) {
   for (auto& row : rows_of(motion, choice)) {
     if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
     add_spikes(row, number(arguments, "spikes", 0));
+    for (const auto& [key, cycles] : {std::pair("sine_at", 0.2), std::pair("second_sine_at", 0.0)})
+      test::add_sine(row, number(arguments, "sine", 0), number(arguments, key, cycles));
     const core::NoiseModel noise = believed(row, arguments);
     begin_at(row, number(arguments, "begin", 0));
     if (motion == "car" || motion == "smooth") test::resample(row, number(arguments, "rate", 120));

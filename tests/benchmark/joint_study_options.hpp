@@ -85,6 +85,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("knock_ratio", options.knock_ratio);
   set("knock_tail", options.knock_tail);
   set("knock_share", options.knock_share);
+  set("line_least_half_width", options.line.least_half_width);
   set("line_half_width", options.line.half_width);
   set("line_resolution", options.line.resolution);
   set("line_drift", options.line.drift);

@@ -47,6 +47,17 @@ struct NoiseChoice {
   std::size_t still_samples = 100'000;
 };
 
+/// Ten minutes of an MPU6050, calibrated on the last four.
+inline NoiseChoice mpu6050_noise(std::size_t axis, std::size_t start) {
+  NoiseChoice noise;
+  noise.file = "mpu6050_static_10min_100hz.csv.gz";
+  noise.axis = axis;
+  noise.start = start;
+  noise.still_start = 40'000;
+  noise.still_samples = 25'000;
+  return noise;
+}
+
 inline bool has_drive_rows(const NoiseChoice& noise = {}) {
   const auto there = [](const std::string& name) { return std::filesystem::exists(data_folder() / name); };
   return there("wid_car_trial06_xsensdot_120hz.csv.gz") && there("wid_car_trial09_xsensdot_120hz.csv.gz") &&

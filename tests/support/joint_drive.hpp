@@ -87,6 +87,16 @@ inline core::NoiseModel learned_at_rest(const DriveRow& row) {
   return core::scaled(learner.models()[0], 1.0 / kRadians);
 }
 
+/// A sine in the noise, and in what it is calibrated on: amplitude in standard deviations of the noise, frequency in cycles per sample. None where either is 0.
+inline void add_sine(DriveRow& row, double amplitude, double cycles) {
+  if (amplitude <= 0.0 || cycles <= 0.0) return;
+  const double size = amplitude * std::sqrt(core::noise_variance(core::still_noise(row.still_dps).value()));
+  for (std::vector<double>* series : {&row.noisy_dps, &row.still_dps}) {
+    for (std::size_t t = 0; t < series->size(); ++t)
+      (*series)[t] += size * std::sin(2.0 * std::numbers::pi * cycles * static_cast<double>(t));
+  }
+}
+
 /// The row at another sample rate: truth by lines, the noise sample by sample.
 inline void resample(DriveRow& row, double rate_hz) {
   if (rate_hz == row.rate_hz) return;

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/joint/joint_fit.hpp"
-#include "core/joint/noise_peak.hpp"
+#include "core/joint/line_modes.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -57,7 +57,7 @@ void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
   member.white_variance *= unit_;
 }
 
-/// The modes, all but the slow one and a tone driven drive_ratio times as hard, with their roots pulled in; and the noise's colour and line.
+/// The modes, all but the slow one and a tone driven drive_ratio times as hard, with their roots pulled in; and the noise's colour and lines.
 BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
   BlockSet set;
   for (const SpectralMode& mode : modes.modes()) {
@@ -73,25 +73,31 @@ BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept 
     set.add(block);
   }
   if (noise_.colour_order > 0) set.add(colour_block(noise_));
-  if (line_.power > 0.0)
-    set.add({.order = 2, .a = {line_.mode.a[0], line_.mode.a[1]}, .drive = line_.mode.drive});
+  for (const NoiseLine& line : lines())
+    set.add({.order = 2, .a = {line.mode.a[0], line.mode.a[1]}, .drive = line.mode.drive});
   return set;
 }
 
-/// What lies above the signal band is no motion, nor is what the noise's own line has left in modes beside it.
+/// What lies above the signal band is no motion, nor is what the noise's own lines have left in modes beside them.
 void JointFit::share_out(ModeSet& modes) noexcept {
-  if (max_signal_cycles_ >= 0.5 && line_.power == 0.0) return;
-  std::array<ModeNearLine, kMaxModes> candidates{};
-  std::size_t count = 0;
+  if (max_signal_cycles_ >= 0.5 && line_count_ == 0) return;
+  std::array<std::array<ModeNearLine, kMaxModes>, kMaxNoiseLines> candidates{};
+  std::array<std::size_t, kMaxNoiseLines> counts{};
   for (SpectralMode& mode : modes.modes()) {
     if (mode.slow) continue;
     const auto [centre_cycles, power] = whittle_.weigh(mode);
-    if (centre_cycles > max_signal_cycles_)
+    if (centre_cycles > max_signal_cycles_) {
       mode.share = 0.0;
-    else if (power > 0.0 && line_.reaches(centre_cycles, options_.line))
-      candidates[count++] = {&mode, power};
+      continue;
+    }
+    for (std::size_t i = 0; power > 0.0 && i < line_count_; ++i) {
+      if (!lines_[i].reaches(centre_cycles, options_.line)) continue;
+      candidates[i][counts[i]++] = {&mode, power};
+      break;
+    }
   }
-  share_with_line(line_.power, std::span(candidates).first(count));
+  for (std::size_t i = 0; i < line_count_; ++i)
+    share_with_line(lines_[i].power, std::span(candidates[i]).first(counts[i]));
 }
 
 /// Variance of what is left out of the modes.

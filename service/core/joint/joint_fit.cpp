@@ -69,11 +69,11 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
     report.tone_amplitude = tone.amplitude * std::sqrt(unit_);
   }
   if (!is_usable(noise_)) return;
-  if (line_.power > 0.0) notch(centred_, line_.cycles, line_.half_width);
+  for (const NoiseLine& line : lines()) notch(centred_, line.cycles, line.half_width);
   decompose(report);
   start_line(tone);
   fit_modes();
-  follow_line(model.line, window.size());
+  follow_lines(model.lines, window.size());
   model.mean = report.mean;
   model.scale = scale_;
   model.full_prior = prior_of_full();
@@ -81,25 +81,26 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   report.modes = full_.size();
 }
 
-/// What the noise is taken for: as believed, its level corrected by what the windows so far have shown, and its line where they have shown
-/// it. Where no colour is believed, or nothing is, what the bands show; at most what the other axes allow.
+/// What the noise is taken for: as believed, its level corrected by what the windows so far have shown, and its lines where they have shown
+/// them. Where no colour is believed, or nothing is, what the bands show; at most what the other axes allow.
 void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, WindowReport& report) noexcept {
   const NoiseBelief belief = belief_in(believed);
   const bool known = belief != NoiseBelief::kNothing;
   unit_ = known ? noise_variance(believed) : 1.0;
   noise_ = known ? scaled(believed, 1.0 / std::sqrt(unit_)) : white_noise(1.0);
-  model.line.believe(noise_);
-  line_ = model.line.line(options_.line);
+  take_lines(model.lines, noise_.lines());
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
   model.noise.observe(periodogram_, whittle_.noise(), believed, new_share(), scale_.forgetting(new_share()));
   const NoiseShape& shape = model.noise.shape();
   if (belief == NoiseBelief::kColour) {
-    noise_ = scaled(model.line.rest(), std::sqrt(shape.level));
-    // Quieter windows do not make the line weaker than it is believed to be, unless by far: it may be all that is as loud as ever.
+    noise_ = scaled(without_lines(noise_), std::sqrt(shape.level));
+    // Quieter windows do not make a line weaker than it is believed to be, unless by far: it may be all that is as loud as ever.
     const double line_level = shape.level < kOtherNoise ? shape.level : std::max(shape.level, 1.0);
-    line_.power *= line_level;
-    line_.mode.drive *= line_level;
+    for (NoiseLine& line : lines_) {
+      line.power *= line_level;
+      line.mode.drive *= line_level;
+    }
   } else if (known) {
     noise_ = noise_of(shape);
   } else {
@@ -107,13 +108,32 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
     noise_ = is_usable(white_noise(unit_)) ? noise_of({.level = 1.0, .tilt = shape.tilt}) : NoiseModel{};
     for (double& power : periodogram_) power /= is_usable(noise_) ? unit_ : 1.0;
   }
-  if (is_usable(noise_)) whittle_.observe(periodogram_, noise_, line_.mode);
+  if (is_usable(noise_)) {
+    std::array<SpectralMode, kMaxNoiseLines> modes{};
+    std::ranges::transform(lines(), modes.begin(), &NoiseLine::mode);
+    whittle_.observe(periodogram_, noise_, std::span(modes).first(line_count_));
+  }
   report.noise_floor = std::sqrt(seen_noise());
 }
 
-/// The tone that stands out most, of the noise where that has a line of its own.
+double JointFit::lines_power() const noexcept {
+  double sum = 0.0;
+  for (const NoiseLine& line : lines()) sum += line.power;
+  return sum;
+}
+
+/// The noise's lines as far as windows have shown where they are.
+void JointFit::take_lines(std::span<LineTracker> trackers, std::span<const SpectralLine> believed) noexcept {
+  line_count_ = believed.size();
+  for (std::size_t i = 0; i < line_count_; ++i) {
+    trackers[i].believe(believed[i]);
+    lines_[i] = trackers[i].line(options_.line);
+  }
+}
+
+/// The tone that stands out most, of the noise where that has lines of its own.
 Tone JointFit::find_motion_tone() noexcept {
-  if (line_.power == 0.0) return find_tone(periodogram_, options_.line_prominence);
+  if (line_count_ == 0) return find_tone(periodogram_, options_.line_prominence);
   const auto noise = whittle_.noise();
   for (std::size_t k = 0; k < noise.size(); ++k) whitened_[k] = periodogram_[k] / noise[k];
   Tone tone = find_tone(whitened_, options_.line_prominence);
@@ -145,7 +165,7 @@ void JointFit::decompose(WindowReport& report) noexcept {
   start_mode(slow, slow_figures);
 }
 
-/// Energy, period, excess and class of an IMF: noise is left out, mixed becomes a mode, signal joins the slow mode. The noise's line is not in
+/// Energy, period, excess and class of an IMF: noise is left out, mixed becomes a mode, signal joins the slow mode. The noise's lines are not in
 /// the window any more.
 void JointFit::describe(std::span<const double> imf, WindowReport& report) const noexcept {
   const std::size_t index = ++report.imf_count;
@@ -153,7 +173,7 @@ void JointFit::describe(std::span<const double> imf, WindowReport& report) const
   figures = {};
   figures.energy = variance(imf);
   figures.mean_period_samples = mean_period(imf);
-  const double floor = line_.power > 0.0 ? std::sqrt(unit_ * noise_variance(noise_)) : report.noise_floor;
+  const double floor = line_count_ > 0 ? std::sqrt(unit_ * noise_variance(noise_)) : report.noise_floor;
   figures.excess = figures.energy / (floor * floor * noise_line_energy(index));
   // The slow mode is never left out: what is slow and beyond the signal band needs a mode of its own.
   if (figures.mean_period_samples > std::max(options_.slow_period_samples, 1.0 / max_signal_cycles_)) return;
@@ -210,15 +230,18 @@ double JointFit::prior_of_full() noexcept {
   return std::max(portable_exp(0.5 * (bought - options_.full_evidence)), options_.least_full_prior);
 }
 
-void JointFit::follow_line(LineTracker& tracker, std::size_t samples) noexcept {
-  if (line_.power == 0.0) return;
-  tracker.observe({.periodogram = periodogram_,
-                   .rest = whittle_.noise_without_line(),
-                   .explained = whittle_.explained(full_),
-                   .resolution = 1.0 / static_cast<double>(samples),
-                   .power = line_.power,
-                   .share = new_share()},
-                  options_.line);
+void JointFit::follow_lines(std::span<LineTracker> trackers, std::size_t samples) noexcept {
+  if (line_count_ == 0) return;
+  const auto explained = whittle_.explained(full_);
+  for (std::size_t i = 0; i < line_count_; ++i) {
+    trackers[i].observe({.periodogram = periodogram_,
+                         .rest = whittle_.noise_without_lines(),
+                         .explained = explained,
+                         .resolution = 1.0 / static_cast<double>(samples),
+                         .power = lines_[i].power,
+                         .share = new_share()},
+                        options_.line);
+  }
 }
 
 }  // namespace gyrod::core

@@ -1,6 +1,7 @@
 /// The slow loop of the two-speed estimator: from a window to a bank of filters.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -19,7 +20,7 @@
 
 namespace gyrod::core {
 
-/// Bridges knocks (KnockBridge), takes the line of the sensor's noise out (LineTracker) and the window minus its mean apart (EMD), starts a mode
+/// Bridges knocks (KnockBridge), takes the lines of the sensor's noise out (LineTracker) and the window minus its mean apart (EMD), starts a mode
 /// from every IMF that holds more than noise, one from all that is slow and one from a narrow tone, fits their spectra beside the noise's
 /// (WhittleFit), and makes the members of the bank (MemberDesigner).
 /// Sizes its workspace once; fit() allocates nothing and is a pure function of its input, but for members that cannot be made and keep
@@ -70,8 +71,13 @@ class JointFit {
   [[nodiscard]] double new_share() const noexcept {
     return static_cast<double>(options_.hop_samples) / static_cast<double>(max_samples_);
   }
-  [[nodiscard]] double seen_noise() const noexcept { return unit_ * (noise_variance(noise_) + line_.power); }
-  void follow_line(LineTracker& tracker, std::size_t samples) noexcept;
+  [[nodiscard]] double seen_noise() const noexcept {
+    return unit_ * (noise_variance(noise_) + lines_power());
+  }
+  [[nodiscard]] std::span<const NoiseLine> lines() const noexcept { return {lines_.data(), line_count_}; }
+  [[nodiscard]] double lines_power() const noexcept;
+  void take_lines(std::span<LineTracker> trackers, std::span<const SpectralLine> believed) noexcept;
+  void follow_lines(std::span<LineTracker> trackers, std::size_t samples) noexcept;
   void share_out(ModeSet& modes) noexcept;
   [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
 
@@ -90,9 +96,10 @@ class JointFit {
   std::vector<double> periodogram_;
   std::vector<double> pruned_periodogram_;  ///< by pruned_tapers_
   std::vector<double> whitened_;
-  NoiseModel noise_;   ///< of this window but for its line, in parts of unit_
-  NoiseLine line_;     ///< of this window, in parts of unit_; power 0 where there is none
-  double unit_ = 1.0;  ///< variance of the noise
+  NoiseModel noise_;  ///< of this window but for its lines, in parts of unit_
+  std::size_t line_count_ = 0;
+  std::array<NoiseLine, kMaxNoiseLines> lines_{};  ///< of this window, in parts of unit_
+  double unit_ = 1.0;                              ///< variance of the noise
   double most_noise_ = std::numeric_limits<double>::infinity();
   double max_signal_cycles_ = 1.0;
   ModeSet full_;

@@ -40,8 +40,8 @@ struct JointModel {
   JointScale scale;
   /// What the windows so far say about the noise.
   NoiseTracker noise;
-  /// And about where its line is.
-  LineTracker line;
+  /// And about where its lines are.
+  std::array<LineTracker, kMaxNoiseLines> lines{};
   /// Members that could not be made of the last window and keep what they had.
   std::size_t fallbacks = 0;
 

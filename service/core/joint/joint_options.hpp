@@ -21,14 +21,16 @@ inline constexpr std::size_t kDesignWindowSamples = 1024;
 /// What is known of the lines that sensors have in their noise, and how they are followed (core/joint/line_tracker.hpp).
 /// Source: tests/benchmark/joint_study.cpp with noise=1z, 2z and 4z; docs/decisions/0007.
 struct LineOptions {
-  /// Half of a line's width at half of its height, in parts of its frequency: 20 Hz +- 0.25 Hz. Range above 0..0.1.
+  /// Half of a line's width at half of its height, in parts of its frequency, is what the calibration says, between these: what a long record adds to it
+  /// is how far the line has wandered, and no line stays in its place. Ranges above 0..0.1.
+  double least_half_width = 0.003;
   double half_width = 0.0125;
   /// What a window adds to that, in bins of its own length. Range 0..100.
   double resolution = 1.5;
   /// How far a line wanders in a window's time, in parts of its frequency. Range 0..0.1.
-  double drift = 0.01;
+  double drift = 0.007;
   /// Of what has been learned, the part that a window's time takes away: a road or an engine that was taken for the line is forgotten. Range 0..1.
-  double leak = 0.1;
+  double leak = 0.05;
   /// Modes so near may be the rest of the line, in half widths of what it is taken for. Range 0..100.
   double reach = 2.0;
 };

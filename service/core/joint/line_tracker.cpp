@@ -6,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/joint/noise_peak.hpp"
 #include "core/signal/levinson.hpp"
 #include "core/signal/portable_math.hpp"
 
@@ -17,7 +16,7 @@ namespace {
 constexpr double kSameLine = 0.05;
 /// How far a line is from where it is believed to be, in parts of its frequency: one standard deviation. That of imu1 z is off by 0.13 in the first hour
 /// after power-up, and by 0.03 later.
-constexpr double kWander = 0.06;
+constexpr double kWander = 0.07;
 /// Of the first probabilities, what is the same everywhere.
 constexpr double kAnywhere = 0.05;
 /// A bin that holds more than so many times what stands there tells no more than that: it holds motion that the fit does not know, and no line of this
@@ -36,13 +35,10 @@ bool NoiseLine::reaches(double centre_cycles, const LineOptions& options) const 
          std::min(options.reach * half_width, LineTracker::kReach * cycles);
 }
 
-void LineTracker::believe(const NoiseModel& noise) noexcept {
-  if (noise == believed_) return;
-  believed_ = noise;
-  const auto peak = find_noise_peak(noise);
-  rest_ = peak ? peak->rest : noise;
-  power_ = peak ? peak->power : 0.0;
-  if (peak && std::abs(peak->cycles - anchor_) > kSameLine * anchor_) look_anew(peak->cycles, peak->line);
+void LineTracker::believe(const SpectralLine& line) noexcept {
+  power_ = line.variance;
+  half_width_ = line.half_width;
+  if (power_ > 0.0 && std::abs(line.cycles - anchor_) > kSameLine * anchor_) look_anew(line.cycles);
 }
 
 double LineTracker::cycles_at(std::size_t place) const noexcept {
@@ -50,17 +46,21 @@ double LineTracker::cycles_at(std::size_t place) const noexcept {
   return anchor_ * (1.0 + kReach * along);
 }
 
-void LineTracker::look_anew(double cycles, const NoiseSpectrum& line) noexcept {
+void LineTracker::look_anew(double cycles) noexcept {
   anchor_ = cycles;
   for (std::size_t i = 0; i < kPlaces; ++i) {
-    const auto bin = static_cast<std::size_t>(std::lround(cycles_at(i) * static_cast<double>(kNoiseSegment)));
     const double away = (cycles_at(i) / cycles - 1.0) / kWander;
-    prior_[i] = line[std::min(bin, kNoiseBins - 1)] * portable_exp(-0.5 * away * away);
+    prior_[i] = portable_exp(-0.5 * away * away);
   }
   const double sum = std::accumulate(prior_.begin(), prior_.end(), 0.0);
   constexpr double kEach = 1.0 / static_cast<double>(kPlaces);
   for (double& p : prior_) p = sum > 0.0 ? std::lerp(p / sum, kEach, kAnywhere) : kEach;
   weight_ = prior_;
+}
+
+/// The line's own.
+double LineTracker::half_width(double cycles, const LineOptions& options) const noexcept {
+  return std::clamp(half_width_, options.least_half_width * cycles, options.half_width * cycles);
 }
 
 LinePlace LineTracker::place() const noexcept {
@@ -77,7 +77,7 @@ LinePlace LineTracker::place() const noexcept {
 NoiseLine LineTracker::line(const LineOptions& options) const noexcept {
   if (power_ == 0.0) return {};
   const auto [cycles, deviation] = place();
-  NoiseLine line{.cycles = cycles, .half_width = options.half_width * cycles + deviation, .power = power_};
+  NoiseLine line{.cycles = cycles, .half_width = half_width(cycles, options) + deviation, .power = power_};
   const double r = portable_exp(-2.0 * std::numbers::pi * line.half_width);
   const std::array<double, 2> a = {2.0 * r * portable_sine_cosine(cycles).cosine, -r * r};
   std::ranges::copy(a, line.mode.a.begin());
@@ -126,14 +126,14 @@ LineTracker::Places LineTracker::log_likelihoods(const LineEvidence& window,
   };
   const std::size_t first = bin_of(cycles_at(0));
   const std::size_t end = bin_of(cycles_at(kPlaces - 1)) + 1;
-  const double half_width = options.half_width * anchor_ + options.resolution * window.resolution;
+  const double width = half_width(anchor_, options) + options.resolution * window.resolution;
   Places likelihood{};
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double middle = cycles_at(i);
     LogarithmOfProduct models;
     for (std::size_t k = first; k < end; ++k) {
       const double distance = 0.5 * static_cast<double>(k) / last - middle;
-      const double line = window.power * line_density(distance, half_width);
+      const double line = window.power * line_density(distance, width);
       const double model = window.rest[k] + std::max(window.explained[k], line);
       models.multiply(model);
       likelihood[i] -= std::min(window.periodogram[k] / model, kMostTold);

@@ -11,10 +11,10 @@
 
 namespace gyrod::core {
 
-/// Blocks of a member: modes, one that makes it agile, the noise's colour and its line.
-inline constexpr std::size_t kMaxBlocks = kMaxModes + 3;
+/// Blocks of a member: modes, one that makes it agile, the noise's colour and its lines.
+inline constexpr std::size_t kMaxBlocks = kMaxModes + 2 + kMaxNoiseLines;
 /// State elements of a member.
-inline constexpr std::size_t kMaxStates = kMaxModes * kModeOrder + 2 + kMaxNoiseColour + 2;
+inline constexpr std::size_t kMaxStates = kMaxModes * kModeOrder + 2 + kMaxNoiseColour + 2 * kMaxNoiseLines;
 
 /// One process of the sum, x[t] = a_1 x[t-1] + ... + a_p x[t-p] + w[t], w ~ N(0, drive); its state is (x[t], ..., x[t-p+1]).
 struct FilterBlock {

@@ -31,10 +31,14 @@ constexpr std::size_t kQuietest = 3;
 /// Source: docs/decisions/0007, "A level that is far too low".
 constexpr std::size_t kAlikeBands = 4;
 constexpr double kAlike = 1.25;
+/// What was found in that way holds for as long as they are within this, as bands of noise stay: those of a road were alike by chance.
+constexpr double kStillAlike = 1.6;
 /// And where these are below this, the level is believed to be as low.
 constexpr double kFarBelow = 0.5;
-/// The same where no colour is believed: so many bands are noise alone of a likely shape.
+/// The same by so many bands that are noise alone of a likely shape.
 constexpr std::size_t kFewestAlone = 5;
+/// Where a colour is believed, and noise alone would have to be tilted against it by more than this, a road is.
+constexpr double kMostTilt = 0.6;
 /// Between this and kMotion noise of a known colour is told from a road by more bands that are alike: 5 of 8, the quietest left out where it is apart.
 /// Source: docs/decisions/0007, "A level that is a third too low".
 constexpr double kLouder = 1.4;
@@ -108,7 +112,7 @@ std::span<const double> bins_of(std::span<const double> spectrum, std::size_t ba
 
 NoiseBelief belief_in(const NoiseModel& noise) noexcept {
   if (!is_usable(noise)) return NoiseBelief::kNothing;
-  return noise.colour_order == 0 ? NoiseBelief::kLevel : NoiseBelief::kColour;
+  return noise.colour_order == 0 && noise.line_count == 0 ? NoiseBelief::kLevel : NoiseBelief::kColour;
 }
 
 void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& believed) noexcept {
@@ -187,11 +191,14 @@ void NoiseTracker::find_far_level(const BandPower& power) noexcept {
   }
   NoiseShape likely = likely_shape(power, false);
   likely.level = std::max(likely.level, kLowestLevel);
-  const bool found = below || !four.empty() || bands_of_noise_alone(power, likely) >= kFewestAlone;
   const bool whole = belief_in(believed_) == NoiseBelief::kLevel;
+  const bool found =
+      below || !four.empty() ||
+      ((whole || likely.tilt < kMostTilt) && bands_of_noise_alone(power, likely) >= kFewestAlone);
   if (whole && (found || far_level_ > 0.0)) shape_ = likely;
   const double level = whole ? likely.level : std::max(quiet, kLowestLevel);
-  far_level_ = found ? level : std::min(far_level_, level);
+  const bool holds = whole || !alike(sorted, kAlikeBands, kStillAlike).empty();
+  far_level_ = found ? level : (holds ? std::min(far_level_, level) : 0.0);
 }
 
 bool NoiseTracker::disagrees() const noexcept {

@@ -16,6 +16,8 @@ constexpr std::size_t kLags = kModeLags;
 /// Cycles a sample, a hundredth of a bin. Without it the roots of the slow mode go onto the unit circle where nothing else explains the lowest bin,
 /// and rounding decides what is made of it.
 constexpr double kSlowBandwidth = 1e-5;
+/// Of the variance of a mode that is not slow, what the bin at frequency 0 holds at the most.
+constexpr double kMostInABin = 0.9;
 
 }  // namespace
 
@@ -48,13 +50,19 @@ WhittleFit::WhittleFit(std::size_t transform_samples, double bandwidth_cycles, E
 }
 
 void WhittleFit::observe(std::span<const double> periodogram, const NoiseModel& noise,
-                         const SpectralMode& line) noexcept {
-  assert(is_usable(noise));
+                         std::span<const SpectralMode> lines) noexcept {
+  assert(is_usable(noise) && lines.size() <= kMaxNoiseLines);
   observe(periodogram);
   sum_noise(noise);
   std::ranges::copy(rest_, noise_.begin());
-  if (line.drive > 0.0) {
-    kernel_->add_spectrum(bins_, line, cosines_.data(), sines_.data(), row(0).data(), noise_.data());
+  if (!lines.empty()) {
+    for (const SpectralMode& line : lines)
+      kernel_->add_spectrum(bins_, line, cosines_.data(), sines_.data(), row(0).data(), noise_.data());
+    return;
+  }
+  for (const SpectralLine& line : noise.lines()) {
+    for (std::size_t k = 0; k < bins_; ++k)
+      noise_[k] += spread_density(line, 0.5 * static_cast<double>(k) / static_cast<double>(bins_ - 1));
   }
 }
 
@@ -63,7 +71,7 @@ void WhittleFit::observe(std::span<const double> periodogram) noexcept {
   std::ranges::copy(periodogram, observed_.begin());
 }
 
-/// noise_spectrum() at every bin, by Horner's rule in z = e^-iw.
+/// noise_spectrum() without lines at every bin, by Horner's rule in z = e^-iw.
 void WhittleFit::sum_noise(const NoiseModel& noise) noexcept {
   const double* const cosine = cosines_.data() + bins_;
   const double* const sine = sines_.data() + bins_;
@@ -155,6 +163,7 @@ SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool sl
     r[lag] = autocovariance[lag] * (slow ? slow_narrowing_ : narrowing_)[lag];
   SpectralMode mode;
   mode.slow = slow;
+  mode.variance = r[0];
   mode.drive = levinson(r, mode.a);
   return mode;
 }
@@ -166,6 +175,20 @@ void WhittleFit::sum_spectra(const ModeSet& modes) noexcept {
     kernel_->add_spectrum(bins_, modes.modes()[j], cosines_.data(), sines_.data(), row(j).data(),
                           sum_.data());
   }
+  bound_slowest_bin(modes);
+}
+
+/// A pole that is much narrower than a bin makes its spectrum at frequency 0 many times what the bin holds. Where two modes have such a pole, either may be
+/// what is there, and by S_1 S_2 / M each would be given ever more of it.
+void WhittleFit::bound_slowest_bin(const ModeSet& modes) noexcept {
+  double sum = noise_[0];
+  for (std::size_t j = 0; j < modes.size(); ++j) {
+    const SpectralMode& mode = modes.modes()[j];
+    const double most = kMostInABin * static_cast<double>(2 * (bins_ - 1)) * mode.variance;
+    if (!mode.slow && mode.variance > 0.0) row(j)[0] = std::min(row(j)[0], most);
+    sum += row(j)[0];
+  }
+  sum_[0] = sum;
 }
 
 /// post_j = S_j + S_j^2 (I - M) / M^2, and the model that has its autocovariances.

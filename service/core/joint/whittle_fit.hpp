@@ -16,6 +16,7 @@ namespace gyrod::core {
 ///   M(w) = sum_j S_j(w) + R(w),   S_j = drive_j / |a_j|^2,   ln L = -sum_w (ln M + I / M).
 /// One iteration: the expected periodogram of every mode given the sum,
 ///   post_j = (S_j / M)^2 I + S_j (1 - S_j / M),
+/// with no more of a mode that is not slow at frequency 0 than half of its variance,
 /// its autocovariances, narrowed no further than a least bandwidth, hardly any for the slow mode, and Levinson's recursion.
 /// Sizes its workspace once; no call allocates after that. Not thread-safe.
 /// Source: Whittle 1953; Dempster, Laird, Rubin 1977; docs/joint.md.
@@ -25,23 +26,24 @@ class WhittleFit {
   /// @param kernel all that are available give the same bits
   WhittleFit(std::size_t transform_samples, double bandwidth_cycles, EmdKernel kernel = EmdKernel::kFastest);
 
-  /// Takes the window's periodogram and the noise, both in the same unit, and a line of the noise beside that (drive 0: none).
-  /// @pre periodogram has transform_samples / 2 + 1 bins; is_usable(noise)
+  /// Takes the window's periodogram and the noise, both in the same unit: white, colour, and its lines, each as uncertain as it is
+  /// (noise_spectrum()), or, where these are better known, as the modes that they are taken for.
+  /// @pre periodogram has transform_samples / 2 + 1 bins; is_usable(noise); lines.size() <= kMaxNoiseLines
   void observe(std::span<const double> periodogram, const NoiseModel& noise,
-               const SpectralMode& line = {}) noexcept;
+               std::span<const SpectralMode> lines = {}) noexcept;
 
   /// Another periodogram of the window beside the same noise. @pre observe() was called, and as above
   void observe(std::span<const double> periodogram) noexcept;
 
   /// The noise's spectrum at every bin, as observe() was told.
   [[nodiscard]] std::span<const double> noise() const noexcept { return noise_; }
-  /// The same without the line.
-  [[nodiscard]] std::span<const double> noise_without_line() const noexcept { return rest_; }
+  /// The same without the lines.
+  [[nodiscard]] std::span<const double> noise_without_lines() const noexcept { return rest_; }
 
-  /// What of the window is more than noise without its line, in the eyes of the fit: the modes' spectra and the line's, as strong as is expected of it in
+  /// What of the window is more than noise without its lines, in the eyes of the fit: the modes' spectra and the lines', as strong as is expected of them in
   /// this window,
   ///   sum_j S_j + e L,   e = sum (L + (L / M)^2 (I - M)) / sum L,
-  /// with L the line that observe() was told; valid until the next call of anything here.
+  /// with L the lines that observe() was told; valid until the next call of anything here.
   [[nodiscard]] std::span<const double> explained(const ModeSet& modes) noexcept;
 
   /// What every iteration takes off a mode's drive from here on, the slow mode's excepted, in parts of it. 0 at the start.
@@ -70,6 +72,7 @@ class WhittleFit {
  private:
   void sum_noise(const NoiseModel& noise) noexcept;
   void sum_spectra(const ModeSet& modes) noexcept;
+  void bound_slowest_bin(const ModeSet& modes) noexcept;
   void maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept;
   [[nodiscard]] double gain_of(std::span<const double> spectrum) const noexcept;
   [[nodiscard]] std::span<double> row(std::size_t mode) noexcept {
@@ -85,7 +88,7 @@ class WhittleFit {
   std::vector<double> sines_;
   std::vector<double> weights_;  ///< the same cosines as weights of a bin in the autocovariance at lag l
   std::vector<double> noise_;    ///< R
-  std::vector<double> rest_;     ///< R without the line
+  std::vector<double> rest_;     ///< R without its lines
   std::vector<double> observed_;
   std::vector<double> sum_;        ///< M
   std::vector<double> deviation_;  ///< (I - M) / M^2

@@ -24,6 +24,11 @@ double response(std::span<const double> coefficients, double radians) noexcept {
   return real * real + imaginary * imaginary;
 }
 
+bool is_line(const SpectralLine& line) noexcept {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  return positive(line.cycles) && line.cycles < 0.5 && positive(line.half_width) && positive(line.variance);
+}
+
 }  // namespace
 
 NoiseModel white_noise(double variance) noexcept {
@@ -33,19 +38,40 @@ NoiseModel white_noise(double variance) noexcept {
 }
 
 double noise_spectrum(const NoiseModel& model, double radians) noexcept {
-  if (model.colour_order == 0) return model.white_variance;
-  return model.white_variance + model.colour_variance / response(model.colour_coefficients(), radians);
+  double power = model.white_variance;
+  if (model.colour_order > 0) power += model.colour_variance / response(model.colour_coefficients(), radians);
+  const double cycles = 0.5 * std::numbers::inv_pi * radians;
+  for (const SpectralLine& line : model.lines())
+    power += spread_density(line, std::min(cycles, 1.0 - cycles));
+  return power;
+}
+
+double spread_density(const SpectralLine& line, double cycles) noexcept {
+  const double low = (1.0 - kLineSpread) * line.cycles;
+  const double high = std::min((1.0 + kLineSpread) * line.cycles, 0.5);
+  return cycles < low || cycles > high ? 0.0 : 0.5 * line.variance / (high - low);
+}
+
+NoiseModel without_lines(const NoiseModel& model) noexcept {
+  NoiseModel result = model;
+  result.line_count = 0;
+  result.line = {};
+  return result;
 }
 
 double noise_variance(const NoiseModel& model) noexcept {
-  if (model.colour_order == 0) return model.white_variance;
-  return model.white_variance + model.colour_variance * ar_variance_gain(model.colour_coefficients());
+  double variance = model.white_variance;
+  if (model.colour_order > 0)
+    variance += model.colour_variance * ar_variance_gain(model.colour_coefficients());
+  for (const SpectralLine& line : model.lines()) variance += line.variance;
+  return variance;
 }
 
 NoiseModel scaled(const NoiseModel& model, double factor) noexcept {
   NoiseModel result = model;
   result.white_variance *= factor * factor;
   result.colour_variance *= factor * factor;
+  for (SpectralLine& line : result.line) line.variance *= factor * factor;
   return result;
 }
 
@@ -54,6 +80,7 @@ bool is_usable(const NoiseModel& model) noexcept {
   if (!finite(model.white_variance) || model.white_variance <= 0.0) return false;
   if (!finite(model.colour_variance) || model.colour_variance < 0.0) return false;
   if (model.colour_order > kMaxNoiseColour) return false;
+  if (model.line_count > kMaxNoiseLines || !std::ranges::all_of(model.lines(), is_line)) return false;
   const auto coefficients = model.colour_coefficients();
   return std::ranges::all_of(coefficients, finite) && std::isfinite(ar_variance_gain(coefficients));
 }

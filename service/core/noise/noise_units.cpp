@@ -44,16 +44,17 @@ NoiseModel from_angle_random_walk(double random_walk, double sample_rate_hz) noe
 }
 
 double lag_one_correlation(const NoiseModel& model) noexcept {
-  if (!is_usable(model) || model.colour_order == 0) return 0.0;
-  double all = 0.0;
+  if (!is_usable(model) || (model.colour_order == 0 && model.line_count == 0)) return 0.0;
   double lagged = 0.0;
+  for (const SpectralLine& line : model.lines())
+    lagged += line.variance * portable_sine_cosine(line.cycles).cosine;
+  const NoiseModel rest = without_lines(model);
   for (int k = 0; k < kFrequencies; ++k) {
     const double turns = 0.5 * (static_cast<double>(k) + 0.5) / kFrequencies;
-    const double power = noise_spectrum(model, 2.0 * std::numbers::pi * turns);
-    all += power;
-    lagged += power * portable_sine_cosine(turns).cosine;
+    lagged += noise_spectrum(rest, 2.0 * std::numbers::pi * turns) * portable_sine_cosine(turns).cosine /
+              kFrequencies;
   }
-  return lagged / all;
+  return lagged / noise_variance(model);
 }
 
 NoiseModel at_rate(const NoiseModel& model, double from_hz, double to_hz) noexcept {

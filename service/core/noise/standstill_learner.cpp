@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/noise/line_spread.hpp"
+#include "core/noise/noise_lines.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -135,10 +135,9 @@ void StandstillLearner::learn() noexcept {
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
     // An axis that has not changed so far and does now: what there is of it is new.
     const double old = level_[axis] > 0.0 ? kept : 0.0;
-    // Here and not before a fit: what comes back from a state file has been spread already.
     // An axis that does not change has no spectrum but that of rounding.
     const bool alive = detector_.variance()[axis] > 0.0;
-    const NoiseSpectrum power = alive ? spread_lines(fresh.power[axis]) : NoiseSpectrum{};
+    const NoiseSpectrum power = alive ? fresh.power[axis] : NoiseSpectrum{};
     double sum = 0.0;
     for (std::size_t k = 0; k < kNoiseBins; ++k) {
       power_[axis][k] = (old * power_[axis][k] + power[k]) / (old + fresh.count);
@@ -160,7 +159,7 @@ void StandstillLearner::learn_bias() noexcept {
 
 void StandstillLearner::fit() noexcept {
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
-    state_.models[axis] = fit_noise(power_[axis]).value_or(NoiseModel{});
+    state_.models[axis] = fit_noise_and_lines(power_[axis]).value_or(NoiseModel{});
   }
   since_fit_ = 0.0;
   ++revision_;
@@ -190,8 +189,9 @@ bool StandstillLearner::restore(const StandstillState& state) noexcept {
     const bool dead = is_dead(state_.models[axis]);
     for (std::size_t k = 0; k < kNoiseBins; ++k) {
       const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kNoiseSegment);
-      power_[axis][k] = dead ? 0.0 : noise_spectrum(state_.models[axis], w);
+      power_[axis][k] = dead ? 0.0 : noise_spectrum(without_lines(state_.models[axis]), w);
     }
+    add_lines(state_.models[axis], power_[axis]);
     level_[axis] = dead ? 0.0 : noise_variance(state_.models[axis]);
   }
   since_fit_ = louder_seconds_ = other_seconds_ = 0.0;

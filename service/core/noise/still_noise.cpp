@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/noise/line_spread.hpp"
+#include "core/noise/noise_lines.hpp"
 #include "core/signal/periodogram.hpp"
 
 namespace gyrod::core {
@@ -61,7 +61,7 @@ std::optional<NoiseModel> still_noise(std::span<const std::span<const double>> s
     for (std::size_t k = 0; k < kNoiseBins; ++k) sum[k] += segment.power[k];
   }
   for (double& bin : sum) bin /= taken;
-  return fit_noise(spread_lines(sum));
+  return fit_noise_and_lines(sum);
 }
 
 }  // namespace gyrod::core

@@ -25,6 +25,8 @@ NoiseCalibration example() {
     model.colour_order = 2;
     model.colour = {0.5, -0.25};
     model.colour_variance = 3e-6;
+    model.line_count = 1;
+    model.line[0] = {.cycles = 0.2, .half_width = 0.003, .variance = 4e-6};
   }
   calibration.bias_radps = {0.001, -0.002, 0.003};
   calibration.origin = {.source = "still.csv.gz", .first_stamp_s = 1.7e9, .still_s = 58.9};
@@ -56,6 +58,10 @@ TEST(NoiseCalibration, ComesBackFromItsText) {
     // A root and its square: two roundings.
     EXPECT_NEAR(after.models[a].white_variance, before.models[a].white_variance, 1e-20);
     EXPECT_NEAR(after.models[a].colour_variance, before.models[a].colour_variance, 1e-20);
+    ASSERT_EQ(after.models[a].line_count, 1U);
+    EXPECT_EQ(after.models[a].line[0].cycles, 0.2);
+    EXPECT_EQ(after.models[a].line[0].half_width, 0.003);
+    EXPECT_NEAR(after.models[a].line[0].variance, 4e-6, 1e-20);
   }
 }
 
@@ -101,6 +107,23 @@ TEST(NoiseCalibration, SaysWhatDoesNotFit) {
   document = example_json();
   document["axes"] = json::object();
   EXPECT_EQ(complaint(document), "cal.json: axes is {}; expected the noise of one axis at least");
+}
+
+TEST(NoiseCalibration, SaysWhatIsWrongWithALine) {
+  json document = example_json();
+  document["axes"]["x"]["lines"][0]["cycles_per_sample"] = 0.5;
+  EXPECT_EQ(
+      complaint(document),
+      "cal.json: axes.x.lines.0.cycles_per_sample is 0.5; expected a number below 0.5, half the sample rate");
+  document = example_json();
+  document["axes"]["x"]["lines"][0].erase("std_radps");
+  EXPECT_EQ(complaint(document), "cal.json: axes.x.lines.0.std_radps is missing; expected a number above 0");
+  document["axes"]["x"]["lines"][0] = 7;
+  EXPECT_EQ(complaint(document), "cal.json: axes.x.lines.0 is 7; expected an object");
+  document["axes"]["x"]["lines"] = json::array({{}, {}, {}, {}});
+  EXPECT_THAT(complaint(document), HasSubstr("expected a list of at most 3 objects"));
+  document["axes"]["x"].erase("lines");
+  EXPECT_THAT(complaint(document), HasSubstr("figures.x.")) << "the figures are of all the noise";
 }
 
 TEST(NoiseCalibration, RefusesAnotherVersionAndAnotherFile) {

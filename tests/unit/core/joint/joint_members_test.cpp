@@ -211,9 +211,10 @@ TEST(JointMembers, AreCountedByTheFullOnesModes) {
 // less than half.
 TEST(JointMembers, ExpectTheNoisesLineAtItsLevel) {
   const core::NoiseModel noise = testing::noise_with_line(0.2, 2.0);
-  const Signal line = testing::autoregressive(noise.colour_coefficients(), kMembersWindow, 2);
+  const core::NoiseModel resonance = testing::noise_with_resonance(0.2, 2.0);
+  const Signal line = testing::autoregressive(resonance.colour_coefficients(), kMembersWindow, 2);
   const Signal z =
-      testing::sum(testing::white_noise(kMembersWindow, 3), line, std::sqrt(noise.colour_variance));
+      testing::sum(testing::white_noise(kMembersWindow, 3), line, std::sqrt(resonance.colour_variance));
   for (const double scale : {0.3, 0.6, 0.9, 1.3}) {
     JointFit fit(kMembersWindow);
     Made made;
@@ -224,7 +225,7 @@ TEST(JointMembers, ExpectTheNoisesLineAtItsLevel) {
     ASSERT_EQ(block.order, 2U);
     ASSERT_EQ(level < 0.5, scale < 0.7);
     ASSERT_EQ(level < 1.0, scale < 1.0);
-    const double believed = made.model.line.line({}).power;
+    const double believed = made.model.lines[0].line({}).power;
     EXPECT_NEAR(variance_of(block), believed * (scale < 0.7 ? level : std::max(level, 1.0)), 1e-9) << scale;
   }
 }

@@ -15,7 +15,7 @@
 namespace gyrod::core {
 namespace {
 
-using testing::noise_with_line;
+using testing::line;
 using testing::Signal;
 
 constexpr std::size_t kSamples = 1024;
@@ -28,7 +28,7 @@ constexpr double kStep = 2.0 * LineTracker::kReach * 0.2 / static_cast<double>(L
 
 /// The spectrum of a narrow line of this variance: that of a mode or of a window that holds it.
 Signal line_at(double cycles, double power) {
-  const NoiseModel with = noise_with_line(cycles, power);
+  const NoiseModel with = testing::noise_with_resonance(cycles, power);
   Signal spectrum(kBins);
   for (std::size_t k = 0; k < kBins; ++k) {
     spectrum[k] =
@@ -48,7 +48,7 @@ Signal window_with(const Signal& a, const Signal& b = Signal(kBins, 0.0)) {
 /// Told of a line at 0.2.
 LineTracker tracker_at_first() {
   LineTracker tracker;
-  tracker.believe(noise_with_line(0.2, kPower));
+  tracker.believe(line(0.2, kPower));
   return tracker;
 }
 
@@ -71,21 +71,28 @@ void watch(LineTracker& tracker, const Signal& window, const Signal& motion, dou
 
 const Signal kNoMotion(kBins, 0.0);
 
-TEST(LineTracker, NoiseWithoutALineIsLeftAsItIs) {
-  LineTracker tracker;
-  const NoiseModel noise = white_noise(1.0);
-  tracker.believe(noise);
-  EXPECT_EQ(tracker.rest(), noise);
+TEST(LineTracker, ThereIsNoneWhereNoneIsBelieved) {
+  const LineTracker tracker;
   EXPECT_EQ(tracker.line(kOptions).power, 0.0);
   EXPECT_FALSE(tracker.line(kOptions).reaches(0.0, kOptions));
 }
 
 TEST(LineTracker, BeginsWithWhatIsBelieved) {
-  const LineTracker tracker = tracker_at_first();
-  const NoiseLine line = tracker.line(kOptions);
+  const NoiseLine line = tracker_at_first().line(kOptions);
   EXPECT_NEAR(line.cycles, 0.2, kStep);
-  EXPECT_NEAR(line.power, 0.9 * kPower, 0.02 * kPower);
-  EXPECT_NEAR(noise_variance(tracker.rest()) + line.power, 1.0 + kPower, 1e-6);
+  EXPECT_EQ(line.power, kPower);
+}
+
+// Its own width is what the calibration says, no less than 0.3 % and no more than 1.25 % of its frequency; what is not known of its place comes on top.
+TEST(LineTracker, IsAsWideAsItWasMeasured) {
+  const auto width_of = [](double half_width) {
+    LineTracker tracker;
+    tracker.believe({.cycles = 0.2, .half_width = half_width, .variance = kPower});
+    return tracker.line(kOptions).half_width - tracker.place().deviation;
+  };
+  EXPECT_NEAR(width_of(0.0015), 0.0015, 1e-6);
+  EXPECT_NEAR(width_of(1e-6), 0.003 * 0.2, 1e-5);
+  EXPECT_NEAR(width_of(0.01), 0.0125 * 0.2, 1e-4);
 }
 
 // The process that the filters get has the line's variance and its frequency.
@@ -169,14 +176,14 @@ TEST(LineTracker, AnotherNoiseIsLookedForAnewAndTheSameIsNot) {
   LineTracker tracker = tracker_at_first();
   watch(tracker, window_with(line_at(0.215, kPower)), kNoMotion);
   const LinePlace known = tracker.place();
-  tracker.believe(noise_with_line(0.2, kPower));
+  tracker.believe(line(0.2, kPower));
   EXPECT_EQ(tracker.place().cycles, known.cycles);
-  tracker.believe(noise_with_line(0.202, 1.1 * kPower));  // learned a little more
+  tracker.believe(line(0.202, 1.1 * kPower));  // learned a little more
   EXPECT_EQ(tracker.place().cycles, known.cycles);
-  EXPECT_NEAR(tracker.line(kOptions).power, 0.9 * 1.1 * kPower, 0.02 * kPower);
-  tracker.believe(noise_with_line(0.1, kPower));
+  EXPECT_EQ(tracker.line(kOptions).power, 1.1 * kPower);
+  tracker.believe(line(0.1, kPower));
   EXPECT_NEAR(tracker.place().cycles, 0.1, kStep);
-  tracker.believe(white_noise(1.0));
+  tracker.believe({});
   EXPECT_EQ(tracker.line(kOptions).power, 0.0);
 }
 

@@ -102,20 +102,26 @@ TEST(WhittleFit, TheTruthIsAFixedPoint) {
 }
 
 // The reference is noise_spectrum(), by cosines and sines of each multiple; here it is Horner's rule.
-TEST(WhittleFit, TheNoisesSpectrumIsThatOfItsModelAndOfItsLine) {
+TEST(WhittleFit, TheNoisesSpectrumIsThatOfItsModelAndOfItsLines) {
   NoiseModel noise = white_noise(1.0);
   noise.colour_order = kMaxNoiseColour;
   noise.colour = {0.4, -0.3, 0.1, 0.05, -0.02, 0.02, 0.01, -0.05};
   noise.colour_variance = 0.5;
   ASSERT_TRUE(is_usable(noise));
-  const SpectralMode line = oscillation(0.98, 1.7, 0.02);
+  const std::array lines = {oscillation(0.98, 1.7, 0.02), oscillation(0.97, 2.4, 0.01)};
   WhittleFit fit(kTransform, 0.0);
-  fit.observe(Signal(kBins, 1.0), noise, line);
+  fit.observe(Signal(kBins, 1.0), noise, lines);
   for (std::size_t k = 0; k < kBins; ++k) {
     const double rest = noise_spectrum(noise, radians(k));
-    EXPECT_NEAR(fit.noise_without_line()[k] / rest, 1.0, 1e-12);
-    EXPECT_NEAR(fit.noise()[k] / (rest + spectrum_of(line, radians(k))), 1.0, 1e-12);
+    EXPECT_NEAR(fit.noise_without_lines()[k] / rest, 1.0, 1e-12);
+    const double both = spectrum_of(lines[0], radians(k)) + spectrum_of(lines[1], radians(k));
+    EXPECT_NEAR(fit.noise()[k] / (rest + both), 1.0, 1e-12);
   }
+  noise.line_count = 1;
+  noise.line[0] = {.cycles = 0.3, .half_width = 0.01, .variance = 0.5};
+  fit.observe(Signal(kBins, 1.0), noise);
+  for (std::size_t k = 0; k < kBins; ++k)
+    EXPECT_NEAR(fit.noise()[k] / noise_spectrum(noise, radians(k)), 1.0, 1e-12) << k;
   fit.observe(Signal(kBins, 1.0), white_noise(2.0));
   EXPECT_EQ(fit.noise()[17], 2.0) << "nothing is left of what was told before";
 }
@@ -129,11 +135,11 @@ TEST(WhittleFit, ExplainsModesAndAsMuchOfTheLineAsTheWindowHas) {
   WhittleFit fit(kTransform, 0.0);
   Signal whole = expected_periodogram(modes);
   for (std::size_t k = 0; k < kBins; ++k) whole[k] += spectrum_of(line, radians(k));
-  fit.observe(whole, white_noise(1.0), line);
+  fit.observe(whole, white_noise(1.0), std::span(&line, 1));
   const auto all = fit.explained(modes);
   for (std::size_t k = 0; k < kBins; k += 7) EXPECT_NEAR(all[k], whole[k] - 1.0, 1e-9 * whole[k]) << k;
 
-  fit.observe(Signal(kBins, 1.0), white_noise(1.0), line);
+  fit.observe(Signal(kBins, 1.0), white_noise(1.0), std::span(&line, 1));
   EXPECT_LT(fit.explained(set_of({}))[kPeak], 0.35 * spectrum_of(line, radians(kPeak)));
 
   fit.observe(whole, white_noise(1.0));

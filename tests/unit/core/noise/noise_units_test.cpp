@@ -56,6 +56,16 @@ TEST(NoiseUnits, GiveTheCorrelationOfNeighbours) {
   EXPECT_NEAR(lag_one_correlation(coloured()), 2.0 / 5.0, 1e-9);
 }
 
+// A line of variance 3 at 0.1 cycles per sample has the covariance 3 cos(36 degrees) at lag 1, and is no part of what integrates to angle.
+TEST(NoiseUnits, KnowWhatALineIs) {
+  NoiseModel model = coloured();
+  model.line_count = 1;
+  model.line[0] = {.cycles = 0.1, .half_width = 0.001, .variance = 3.0};
+  EXPECT_NEAR(lag_one_correlation(model), (2.0 + 3.0 * std::cos(0.2 * std::numbers::pi)) / 8.0, 1e-9);
+  EXPECT_NEAR(angle_random_walk(model, 100.0), std::sqrt(0.13), 1e-12);
+  EXPECT_NEAR(noise_density(model, 100.0), std::sqrt(0.16), 1e-12);
+}
+
 TEST(NoiseUnits, KeepTheDensityAtAnotherRate) {
   EXPECT_EQ(at_rate(coloured(), 100.0, 101.0), coloured());
   const NoiseModel twice = at_rate(coloured(), 100.0, 200.0);

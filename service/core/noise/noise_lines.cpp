@@ -1,0 +1,138 @@
+#include "core/noise/noise_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace gyrod::core {
+namespace {
+
+/// Lowest bin that is looked at: below 1/40 cycle per sample noise is slow, and not a line.
+constexpr std::size_t kLowest = kNoiseSegment / 40;
+constexpr std::size_t kSurroundings = 12;
+constexpr double kAround = 0.2;
+constexpr double kStandsAbove = 4.0;
+/// A line ends where what stands above the floor is less than this part of the floor.
+constexpr double kFoot = 0.5;
+/// Width, in bins, of a sine behind the segments' Hann taper: its power over its height.
+constexpr double kTaperWidth = 1.5;
+/// A line is no narrower than this, in bins.
+constexpr double kLeastHalfWidth = 0.05;
+
+double floor_at(const NoiseSpectrum& power, std::size_t bin) noexcept {
+  const auto reach = std::max(kSurroundings, static_cast<std::size_t>(kAround * static_cast<double>(bin)));
+  const std::size_t first = std::max(bin, kLowest + reach) - reach;
+  const std::size_t end = std::min(bin + reach + 1, kNoiseBins);
+  NoiseSpectrum near{};
+  const auto count = static_cast<std::ptrdiff_t>(end - first);
+  std::copy_n(power.begin() + static_cast<std::ptrdiff_t>(first), count, near.begin());
+  std::nth_element(near.begin(), near.begin() + count / 2, near.begin() + count);
+  return near[static_cast<std::size_t>(count / 2)];
+}
+
+NoiseSpectrum floor_of(const NoiseSpectrum& power) noexcept {
+  NoiseSpectrum floor = power;
+  for (std::size_t k = kLowest; k < kNoiseBins; ++k) floor[k] = floor_at(power, k);
+  return floor;
+}
+
+/// Of a line whose own half width is this, in bins: its power over its height. A line of Cauchy's shape has pi half widths; behind a taper that by itself makes
+/// t of a sine it has w with w - t^2 / w = pi half widths. Source: Halder, Wagner 1966, Acta Crystallographica 20 (breadths of Voigt profiles).
+double width_behind_taper(double half_width) noexcept {
+  const double own = 0.5 * std::numbers::pi * half_width;
+  return own + std::sqrt(own * own + kTaperWidth * kTaperWidth);
+}
+
+double half_width_before_taper(double width) noexcept {
+  return std::max((width - kTaperWidth * kTaperWidth / width) * std::numbers::inv_pi, kLeastHalfWidth);
+}
+
+/// Bins first..last around the peak of a line.
+struct Extent {
+  std::size_t first;
+  std::size_t last;
+};
+
+Extent extent_of(const NoiseSpectrum& power, const NoiseSpectrum& floor, std::size_t peak) noexcept {
+  const auto most = static_cast<std::size_t>(kLineSpread * static_cast<double>(peak));
+  const auto stands = [&](std::size_t k) { return power[k] > (1.0 + kFoot) * floor[k]; };
+  Extent extent{peak, peak};
+  while (extent.first > kLowest && peak - extent.first < most && stands(extent.first - 1)) --extent.first;
+  while (extent.last + 1 < kNoiseBins && extent.last - peak < most && stands(extent.last + 1)) ++extent.last;
+  return extent;
+}
+
+/// What stands above the floor.
+SpectralLine line_of(const NoiseSpectrum& power, const NoiseSpectrum& floor, std::size_t peak,
+                     Extent extent) noexcept {
+  double sum = 0.0;
+  double moment = 0.0;
+  for (std::size_t k = extent.first; k <= extent.last; ++k) {
+    const double above = power[k] - floor[k];
+    sum += above;
+    moment += above * static_cast<double>(k);
+  }
+  constexpr auto kSegment = static_cast<double>(kNoiseSegment);
+  return {.cycles = moment / sum / kSegment,
+          .half_width = half_width_before_taper(sum / (power[peak] - floor[peak])) / kSegment,
+          .variance = 2.0 * sum / kSegment};
+}
+
+/// The bin that stands highest above the floor, by kStandsAbove at least; 0 where there is none.
+std::size_t highest(const NoiseSpectrum& power, const NoiseSpectrum& floor) noexcept {
+  std::size_t peak = 0;
+  double most = kStandsAbove;
+  for (std::size_t k = kLowest; k < kNoiseBins; ++k) {
+    if (!(power[k] > most * floor[k])) continue;
+    most = power[k] / floor[k];
+    peak = k;
+  }
+  return peak;
+}
+
+}  // namespace
+
+SpectrumParts take_lines(const NoiseSpectrum& power) noexcept {
+  SpectrumParts parts{.rest = power};
+  const NoiseSpectrum floor = floor_of(power);
+  while (parts.line_count < kMaxNoiseLines) {
+    const std::size_t peak = highest(parts.rest, floor);
+    if (peak == 0) break;
+    const Extent extent = extent_of(parts.rest, floor, peak);
+    const SpectralLine line = line_of(parts.rest, floor, peak, extent);
+    std::copy_n(floor.begin() + static_cast<std::ptrdiff_t>(extent.first), extent.last - extent.first + 1,
+                parts.rest.begin() + static_cast<std::ptrdiff_t>(extent.first));
+    std::size_t place = parts.line_count++;
+    for (; place > 0 && parts.line[place - 1].cycles > line.cycles; --place)
+      parts.line[place] = parts.line[place - 1];
+    parts.line[place] = line;
+  }
+  return parts;
+}
+
+std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power) noexcept {
+  const SpectrumParts parts = take_lines(power);
+  auto model = fit_noise(parts.rest);
+  if (!model) return std::nullopt;
+  model->line_count = parts.line_count;
+  model->line = parts.line;
+  return is_usable(*model) ? model : std::nullopt;
+}
+
+void add_lines(const NoiseModel& model, NoiseSpectrum& power) noexcept {
+  constexpr auto kSegment = static_cast<double>(kNoiseSegment);
+  for (const SpectralLine& line : model.lines()) {
+    const double middle = line.cycles * kSegment;
+    const double width = width_behind_taper(line.half_width * kSegment);
+    const double height = 0.5 * kSegment * line.variance / width;
+    for (std::size_t k = 0; k < kNoiseBins; ++k) {
+      const double away = static_cast<double>(k) - middle;
+      const double left = std::max(away - 0.5, -0.5 * width);
+      const double right = std::min(away + 0.5, 0.5 * width);
+      power[k] += height * std::max(right - left, 0.0);
+    }
+  }
+}
+
+}  // namespace gyrod::core

@@ -1,0 +1,35 @@
+/// The narrow lines in the spectrum of a sensor's noise.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "core/noise/noise_fit.hpp"
+
+namespace gyrod::core {
+
+/// A spectrum taken apart.
+struct SpectrumParts {
+  NoiseSpectrum rest{};  ///< without the lines: what surrounds them takes their place
+  std::size_t line_count = 0;
+  std::array<SpectralLine, kMaxNoiseLines> line{};  ///< by frequency, lowest first
+};
+
+/// Finds lines, the one that stands out most first: a bin above 1/40 cycle per sample, where slow noise does not count, that stands 4 times as high as the
+/// floor, which is the median of the bins within 20 % of the frequency, 12 bins at least. White noise of six segments has such a bin in less than a
+/// hundredth of spectra; a sine has it from 1.8 % of the noise's power on. The line is what stands above the floor from there to where, on either side, less
+/// than half of the floor does, or to kLineSpread of the frequency. Its half width is that of Cauchy's density which has this power and height
+/// behind the segments' taper.
+/// Allocates nothing; about 0.1 ms.
+[[nodiscard]] SpectrumParts take_lines(const NoiseSpectrum& power) noexcept;
+
+/// What is known of a sensor's noise from its averaged spectrum: its lines, and white noise and AR(8) for the rest (fit_noise()).
+/// @return nothing where the spectrum is zero or not finite
+/// Allocates nothing.
+[[nodiscard]] std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power) noexcept;
+
+/// Adds the model's lines to a spectrum, each a rectangle of its power and height: what take_lines() takes out again.
+void add_lines(const NoiseModel& model, NoiseSpectrum& power) noexcept;
+
+}  // namespace gyrod::core
