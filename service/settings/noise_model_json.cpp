@@ -15,6 +15,7 @@ core::SpectralLine line_of(const JsonFields& fields) {
   const core::SpectralLine line{.cycles = fields.positive(kFrequency),
                                 .half_width = fields.positive(kHalfWidth),
                                 .variance = deviation * deviation};
+  if (!(line.variance > 0.0)) fields.fail("std_radps", "a standard deviation above 0");
   if (!(line.cycles < 0.5)) fields.fail(kFrequency, "a number below 0.5, half the sample rate");
   return line;
 }
@@ -47,8 +48,13 @@ core::NoiseModel model_of(const JsonFields& fields) {
     if (!core::is_usable(model)) fields.fail("colour", "coefficients of a stable model");
   }
   if (fields.has("lines")) {
-    for (const JsonFields& line : fields.list("lines", core::kMaxNoiseLines))
-      model.line[model.line_count++] = line_of(line);
+    for (const JsonFields& line : fields.list("lines", core::kMaxNoiseLines)) {
+      const double before = model.line_count > 0 ? model.line[model.line_count - 1].cycles : 0.0;
+      model.line[model.line_count] = line_of(line);
+      if (!(model.line[model.line_count].cycles > before))
+        line.fail(kFrequency, "lines by frequency, the lowest first");
+      ++model.line_count;
+    }
   }
   if (!core::is_usable(model)) fields.fail("white_std_radps", "a standard deviation above 0");
   return model;

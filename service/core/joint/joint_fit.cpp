@@ -97,7 +97,7 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
     noise_ = scaled(without_lines(noise_), std::sqrt(shape.level));
     // Quieter windows do not make a line weaker than it is believed to be, unless by far: it may be all that is as loud as ever.
     const double line_level = shape.level < kOtherNoise ? shape.level : std::max(shape.level, 1.0);
-    for (NoiseLine& line : lines_) {
+    for (NoiseLine& line : std::span(lines_).first(line_count_)) {
       line.power *= line_level;
       line.mode.drive *= line_level;
     }
@@ -123,12 +123,10 @@ double JointFit::lines_power() const noexcept {
 }
 
 /// The noise's lines as far as windows have shown where they are.
-void JointFit::take_lines(std::span<LineTracker> trackers, std::span<const SpectralLine> believed) noexcept {
+void JointFit::take_lines(LineTrackers& trackers, std::span<const SpectralLine> believed) noexcept {
+  believe(believed, trackers);
   line_count_ = believed.size();
-  for (std::size_t i = 0; i < line_count_; ++i) {
-    trackers[i].believe(believed[i]);
-    lines_[i] = trackers[i].line(options_.line);
-  }
+  for (std::size_t i = 0; i < line_count_; ++i) lines_[i] = trackers[i].line(options_.line);
 }
 
 /// The tone that stands out most, of the noise where that has lines of its own.
@@ -230,7 +228,7 @@ double JointFit::prior_of_full() noexcept {
   return std::max(portable_exp(0.5 * (bought - options_.full_evidence)), options_.least_full_prior);
 }
 
-void JointFit::follow_lines(std::span<LineTracker> trackers, std::size_t samples) noexcept {
+void JointFit::follow_lines(LineTrackers& trackers, std::size_t samples) noexcept {
   if (line_count_ == 0) return;
   const auto explained = whittle_.explained(full_);
   for (std::size_t i = 0; i < line_count_; ++i) {

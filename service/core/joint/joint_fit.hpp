@@ -76,8 +76,8 @@ class JointFit {
   }
   [[nodiscard]] std::span<const NoiseLine> lines() const noexcept { return {lines_.data(), line_count_}; }
   [[nodiscard]] double lines_power() const noexcept;
-  void take_lines(std::span<LineTracker> trackers, std::span<const SpectralLine> believed) noexcept;
-  void follow_lines(std::span<LineTracker> trackers, std::size_t samples) noexcept;
+  void take_lines(LineTrackers& trackers, std::span<const SpectralLine> believed) noexcept;
+  void follow_lines(LineTrackers& trackers, std::size_t samples) noexcept;
   void share_out(ModeSet& modes) noexcept;
   [[nodiscard]] BlockSet with_agile(const FilterBlock& agile) noexcept;
 

@@ -41,7 +41,7 @@ struct JointModel {
   /// What the windows so far say about the noise.
   NoiseTracker noise;
   /// And about where its lines are.
-  std::array<LineTracker, kMaxNoiseLines> lines{};
+  LineTrackers lines{};
   /// Members that could not be made of the last window and keep what they had.
   std::size_t fallbacks = 0;
 

@@ -38,7 +38,11 @@ bool NoiseLine::reaches(double centre_cycles, const LineOptions& options) const 
 void LineTracker::believe(const SpectralLine& line) noexcept {
   power_ = line.variance;
   half_width_ = line.half_width;
-  if (power_ > 0.0 && std::abs(line.cycles - anchor_) > kSameLine * anchor_) look_anew(line.cycles);
+  if (power_ > 0.0 && !knows(line)) look_anew(line.cycles);
+}
+
+bool LineTracker::knows(const SpectralLine& line) const noexcept {
+  return anchor_ > 0.0 && std::abs(line.cycles - anchor_) <= kSameLine * anchor_;
 }
 
 double LineTracker::cycles_at(std::size_t place) const noexcept {
@@ -50,17 +54,19 @@ void LineTracker::look_anew(double cycles) noexcept {
   anchor_ = cycles;
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double away = (cycles_at(i) / cycles - 1.0) / kWander;
-    prior_[i] = portable_exp(-0.5 * away * away);
+    prior_[i] = exists(i) ? portable_exp(-0.5 * away * away) : 0.0;
   }
   const double sum = std::accumulate(prior_.begin(), prior_.end(), 0.0);
-  constexpr double kEach = 1.0 / static_cast<double>(kPlaces);
-  for (double& p : prior_) p = sum > 0.0 ? std::lerp(p / sum, kEach, kAnywhere) : kEach;
+  double places = 0.0;
+  for (std::size_t i = 0; i < kPlaces; ++i) places += exists(i) ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < kPlaces; ++i)
+    prior_[i] = exists(i) ? std::lerp(prior_[i] / sum, 1.0 / places, kAnywhere) : 0.0;
   weight_ = prior_;
 }
 
 /// The line's own.
 double LineTracker::half_width(double cycles, const LineOptions& options) const noexcept {
-  return std::clamp(half_width_, options.least_half_width * cycles, options.half_width * cycles);
+  return std::min(std::max(half_width_, options.least_half_width * cycles), options.half_width * cycles);
 }
 
 LinePlace LineTracker::place() const noexcept {
@@ -112,6 +118,7 @@ void LineTracker::spread(double share, const LineOptions& options) noexcept {
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double below = weight_[i > 0 ? i - 1 : i];
     const double above = weight_[i + 1 < kPlaces ? i + 1 : i];
+    if (!exists(i)) continue;
     const double walked = weight_[i] + part * (below - 2.0 * weight_[i] + above);
     next[i] = std::lerp(walked, prior_[i], std::min(options.leak * share, 1.0));
   }
@@ -141,6 +148,27 @@ LineTracker::Places LineTracker::log_likelihoods(const LineEvidence& window,
     likelihood[i] -= models.value();
   }
   return likelihood;
+}
+
+void believe(std::span<const SpectralLine> lines, LineTrackers& trackers) noexcept {
+  assert(lines.size() <= trackers.size());
+  const LineTrackers before = trackers;
+  std::array<bool, kMaxNoiseLines> taken{};
+  std::array<bool, kMaxNoiseLines> told{};
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = 0; j < before.size() && !told[i]; ++j) {
+      if (taken[j] || !before[j].knows(lines[i])) continue;
+      trackers[i] = before[j];
+      taken[j] = told[i] = true;
+    }
+  }
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < trackers.size(); ++i) {
+    if (told[i]) continue;
+    while (taken[left]) ++left;
+    trackers[i] = before[left++];
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) trackers[i].believe(lines[i]);
 }
 
 }  // namespace gyrod::core

@@ -58,6 +58,8 @@ class LineTracker {
   /// The line that is believed, of the noise at variance 1; variance 0: none. What is known of where it is stays, but where it has moved by more than a
   /// twentieth it is looked for anew.
   void believe(const SpectralLine& line) noexcept;
+  /// Whether it was told of a line there, not more than a twentieth away, before.
+  [[nodiscard]] bool knows(const SpectralLine& line) const noexcept;
   /// The line, as far as it is known by now.
   [[nodiscard]] NoiseLine line(const LineOptions& options) const noexcept;
   [[nodiscard]] LinePlace place() const noexcept;
@@ -68,6 +70,8 @@ class LineTracker {
   using Places = std::array<double, kPlaces>;
 
   [[nodiscard]] double cycles_at(std::size_t place) const noexcept;
+  /// Beyond half a cycle there is nothing.
+  [[nodiscard]] bool exists(std::size_t place) const noexcept { return cycles_at(place) < 0.5; }
   void look_anew(double cycles) noexcept;
   void spread(double share, const LineOptions& options) noexcept;
   [[nodiscard]] double half_width(double cycles, const LineOptions& options) const noexcept;
@@ -79,5 +83,11 @@ class LineTracker {
   Places prior_{};
   Places weight_{};
 };
+
+using LineTrackers = std::array<LineTracker, kMaxNoiseLines>;
+
+/// Tells trackers of the lines that are believed now, line i to tracker i: each line stays with the tracker that knows it, whichever that was; one that is no more
+/// may come back.
+void believe(std::span<const SpectralLine> lines, LineTrackers& trackers) noexcept;
 
 }  // namespace gyrod::core

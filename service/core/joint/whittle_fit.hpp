@@ -16,7 +16,7 @@ namespace gyrod::core {
 ///   M(w) = sum_j S_j(w) + R(w),   S_j = drive_j / |a_j|^2,   ln L = -sum_w (ln M + I / M).
 /// One iteration: the expected periodogram of every mode given the sum,
 ///   post_j = (S_j / M)^2 I + S_j (1 - S_j / M),
-/// with no more of a mode that is not slow at frequency 0 than half of its variance,
+/// where no more of a mode that is not slow is taken to be in the bin at frequency 0 than 0.9 of its variance;
 /// its autocovariances, narrowed no further than a least bandwidth, hardly any for the slow mode, and Levinson's recursion.
 /// Sizes its workspace once; no call allocates after that. Not thread-safe.
 /// Source: Whittle 1953; Dempster, Laird, Rubin 1977; docs/joint.md.

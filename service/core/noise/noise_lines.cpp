@@ -9,20 +9,29 @@ namespace gyrod::core {
 namespace {
 
 /// Lowest bin that is looked at: below 1/40 cycle per sample noise is slow, and not a line.
-constexpr std::size_t kLowest = kNoiseSegment / 40;
+constexpr std::size_t kLowest = kNoiseSegment / 40 + 1;
+/// Below it are bias and its drift.
+constexpr std::size_t kFirstBin = 3;
 constexpr std::size_t kSurroundings = 12;
 constexpr double kAround = 0.2;
 constexpr double kStandsAbove = 4.0;
+/// By how much more where few segments scatter: of five, 4 % of white noise has a bin of 4, and less than a thousandth one of 6.
+constexpr double kFewSegments = 20.0;
 /// A line ends where what stands above the floor is less than this part of the floor.
 constexpr double kFoot = 0.5;
 /// Width, in bins, of a sine behind the segments' Hann taper: its power over its height.
 constexpr double kTaperWidth = 1.5;
+/// Bins to either side that it has something in.
+constexpr std::size_t kTaperReach = 2;
 /// A line is no narrower than this, in bins.
 constexpr double kLeastHalfWidth = 0.05;
 
+/// A filter needs a white part, also where lines hold nearly all.
+constexpr double kLeastWhiteOfAll = 1e-4;
+
 double floor_at(const NoiseSpectrum& power, std::size_t bin) noexcept {
   const auto reach = std::max(kSurroundings, static_cast<std::size_t>(kAround * static_cast<double>(bin)));
-  const std::size_t first = std::max(bin, kLowest + reach) - reach;
+  const std::size_t first = std::max(bin, kFirstBin + reach) - reach;
   const std::size_t end = std::min(bin + reach + 1, kNoiseBins);
   NoiseSpectrum near{};
   const auto count = static_cast<std::ptrdiff_t>(end - first);
@@ -33,7 +42,7 @@ double floor_at(const NoiseSpectrum& power, std::size_t bin) noexcept {
 
 NoiseSpectrum floor_of(const NoiseSpectrum& power) noexcept {
   NoiseSpectrum floor = power;
-  for (std::size_t k = kLowest; k < kNoiseBins; ++k) floor[k] = floor_at(power, k);
+  for (std::size_t k = kFirstBin; k < kNoiseBins; ++k) floor[k] = floor_at(power, k);
   return floor;
 }
 
@@ -55,10 +64,10 @@ struct Extent {
 };
 
 Extent extent_of(const NoiseSpectrum& power, const NoiseSpectrum& floor, std::size_t peak) noexcept {
-  const auto most = static_cast<std::size_t>(kLineSpread * static_cast<double>(peak));
+  const auto most = std::max(kTaperReach, static_cast<std::size_t>(kLineSpread * static_cast<double>(peak)));
   const auto stands = [&](std::size_t k) { return power[k] > (1.0 + kFoot) * floor[k]; };
   Extent extent{peak, peak};
-  while (extent.first > kLowest && peak - extent.first < most && stands(extent.first - 1)) --extent.first;
+  while (extent.first > kFirstBin && peak - extent.first < most && stands(extent.first - 1)) --extent.first;
   while (extent.last + 1 < kNoiseBins && extent.last - peak < most && stands(extent.last + 1)) ++extent.last;
   return extent;
 }
@@ -69,7 +78,8 @@ SpectralLine line_of(const NoiseSpectrum& power, const NoiseSpectrum& floor, std
   double sum = 0.0;
   double moment = 0.0;
   for (std::size_t k = extent.first; k <= extent.last; ++k) {
-    const double above = power[k] - floor[k];
+    // The last bin stands for one sign of frequency, the others for both.
+    const double above = (k + 1 == kNoiseBins ? 0.5 : 1.0) * (power[k] - floor[k]);
     sum += above;
     moment += above * static_cast<double>(k);
   }
@@ -79,12 +89,12 @@ SpectralLine line_of(const NoiseSpectrum& power, const NoiseSpectrum& floor, std
           .variance = 2.0 * sum / kSegment};
 }
 
-/// The bin that stands highest above the floor, by kStandsAbove at least; 0 where there is none.
-std::size_t highest(const NoiseSpectrum& power, const NoiseSpectrum& floor) noexcept {
+/// The bin that stands highest above the floor, by stands_above at least, and is no skirt of another; 0 where there is none.
+std::size_t highest(const NoiseSpectrum& power, const NoiseSpectrum& floor, double stands_above) noexcept {
   std::size_t peak = 0;
-  double most = kStandsAbove;
-  for (std::size_t k = kLowest; k < kNoiseBins; ++k) {
-    if (!(power[k] > most * floor[k])) continue;
+  double most = stands_above;
+  for (std::size_t k = kLowest; k + 1 < kNoiseBins; ++k) {
+    if (!(power[k] > most * floor[k]) || power[k] < power[k - 1] || power[k] < power[k + 1]) continue;
     most = power[k] / floor[k];
     peak = k;
   }
@@ -93,11 +103,12 @@ std::size_t highest(const NoiseSpectrum& power, const NoiseSpectrum& floor) noex
 
 }  // namespace
 
-SpectrumParts take_lines(const NoiseSpectrum& power) noexcept {
+SpectrumParts take_lines(const NoiseSpectrum& power, double segments) noexcept {
   SpectrumParts parts{.rest = power};
   const NoiseSpectrum floor = floor_of(power);
+  const double stands_above = std::max(kStandsAbove, 0.5 * kStandsAbove + kFewSegments / segments);
   while (parts.line_count < kMaxNoiseLines) {
-    const std::size_t peak = highest(parts.rest, floor);
+    const std::size_t peak = highest(parts.rest, floor, stands_above);
     if (peak == 0) break;
     const Extent extent = extent_of(parts.rest, floor, peak);
     const SpectralLine line = line_of(parts.rest, floor, peak, extent);
@@ -111,12 +122,13 @@ SpectrumParts take_lines(const NoiseSpectrum& power) noexcept {
   return parts;
 }
 
-std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power) noexcept {
-  const SpectrumParts parts = take_lines(power);
+std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power, double segments) noexcept {
+  const SpectrumParts parts = take_lines(power, segments);
   auto model = fit_noise(parts.rest);
-  if (!model) return std::nullopt;
+  if (!model) return fit_noise(power);
   model->line_count = parts.line_count;
   model->line = parts.line;
+  model->white_variance = std::max(model->white_variance, kLeastWhiteOfAll * noise_variance(*model));
   return is_usable(*model) ? model : std::nullopt;
 }
 

@@ -16,18 +16,20 @@ struct SpectrumParts {
   std::array<SpectralLine, kMaxNoiseLines> line{};  ///< by frequency, lowest first
 };
 
-/// Finds lines, the one that stands out most first: a bin above 1/40 cycle per sample, where slow noise does not count, that stands 4 times as high as the
-/// floor, which is the median of the bins within 20 % of the frequency, 12 bins at least. White noise of six segments has such a bin in less than a
-/// hundredth of spectra; a sine has it from 1.8 % of the noise's power on. The line is what stands above the floor from there to where, on either side, less
-/// than half of the floor does, or to kLineSpread of the frequency. Its half width is that of Cauchy's density which has this power and height
-/// behind the segments' taper.
+/// Finds lines, the one that stands out most first: a bin above 1/40 cycle per sample, where slow noise does not count, and below half a cycle, that no neighbour
+/// exceeds and that stands 4 times as high as the floor, or 2 + 20 / segments times where that is more: the median of the bins within 20 % of the
+/// frequency, 12 bins at least. Less than one in a thousand spectra of white noise has such a bin; a sine has it from 1.8 % of the noise's power on. The line
+/// is what stands above the floor from there to where, on either side, less than half of the floor does, or to kLineSpread of the frequency. Its half width
+/// is that of Cauchy's density which has this power and height behind the segments' taper.
+/// @param segments that were averaged, half overlapping; above 0
 /// Allocates nothing; about 0.1 ms.
-[[nodiscard]] SpectrumParts take_lines(const NoiseSpectrum& power) noexcept;
+[[nodiscard]] SpectrumParts take_lines(const NoiseSpectrum& power, double segments) noexcept;
 
 /// What is known of a sensor's noise from its averaged spectrum: its lines, and white noise and AR(8) for the rest (fit_noise()).
 /// @return nothing where the spectrum is zero or not finite
 /// Allocates nothing.
-[[nodiscard]] std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power) noexcept;
+[[nodiscard]] std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power,
+                                                            double segments) noexcept;
 
 /// Adds the model's lines to a spectrum, each a rectangle of its power and height: what take_lines() takes out again.
 void add_lines(const NoiseModel& model, NoiseSpectrum& power) noexcept;

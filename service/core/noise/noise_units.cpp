@@ -59,7 +59,8 @@ double lag_one_correlation(const NoiseModel& model) noexcept {
 
 NoiseModel at_rate(const NoiseModel& model, double from_hz, double to_hz) noexcept {
   if (std::abs(to_hz - from_hz) <= kSameRate * from_hz) return model;
-  return white_noise(noise_variance(model) * to_hz / from_hz);
+  const double rest = noise_variance(without_lines(model));
+  return white_noise(rest * to_hz / from_hz + noise_variance(model) - rest);
 }
 
 }  // namespace gyrod::core

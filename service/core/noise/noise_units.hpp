@@ -35,7 +35,7 @@ namespace gyrod::core {
 [[nodiscard]] double lag_one_correlation(const NoiseModel& model) noexcept;
 
 /// The model for another sample rate of the same sensor: unchanged where the rates differ by 2 % at most, else white noise of the same
-/// mean density, for a colour in samples does not carry over.
+/// mean density, for a colour in samples does not carry over. Lines keep their power, as white noise.
 /// @pre both rates above 0
 [[nodiscard]] NoiseModel at_rate(const NoiseModel& model, double from_hz, double to_hz) noexcept;
 

@@ -159,7 +159,7 @@ void StandstillLearner::learn_bias() noexcept {
 
 void StandstillLearner::fit() noexcept {
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
-    state_.models[axis] = fit_noise_and_lines(power_[axis]).value_or(NoiseModel{});
+    state_.models[axis] = fit_noise_and_lines(power_[axis], state_.segments).value_or(NoiseModel{});
   }
   since_fit_ = 0.0;
   ++revision_;

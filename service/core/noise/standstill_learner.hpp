@@ -33,7 +33,7 @@ struct StandstillState {
 /// outvoted.
 ///
 /// Spectra of the segments at rest are averaged, with the weight of the last ten minutes of rest; older ones fade. From five
-/// segments and ten seconds on fit_noise() makes models of them, again whenever a tenth has been added.
+/// segments and ten seconds on fit_noise_and_lines() makes models of them, again whenever a tenth has been added.
 /// A function of samples and sample rate alone. About 60 kB; nothing allocates after construction. One thread at a time.
 class StandstillLearner {
  public:

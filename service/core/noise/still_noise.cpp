@@ -61,7 +61,7 @@ std::optional<NoiseModel> still_noise(std::span<const std::span<const double>> s
     for (std::size_t k = 0; k < kNoiseBins; ++k) sum[k] += segment.power[k];
   }
   for (double& bin : sum) bin /= taken;
-  return fit_noise_and_lines(sum);
+  return fit_noise_and_lines(sum, taken);
 }
 
 }  // namespace gyrod::core

@@ -17,9 +17,9 @@ inline constexpr std::size_t kMinStillSamples = 2000;
 /// standard errors of the level after 60 s at 100 Hz (1 / sqrt(2 * 6000) = 0.9 % each), and what it drifts in hours.
 inline constexpr double kNoiseMargin = 1.02;
 
-/// Fits white noise plus AR(8) to a still stretch (fit_noise()), from Hann-tapered segments of kNoiseSegment samples, half overlapping,
+/// Fits white noise, AR(8) and lines to a still stretch (fit_noise_and_lines()), from Hann-tapered segments of kNoiseSegment samples, half overlapping,
 /// each without its straight line: mean, drift and what is slower than 200 samples do not count. A segment whose variance
-/// exceeds 1.5 times the median (a shock) is left out. Lines are taken for as wide as they wander (spread_lines()). The model is the measured one, without kNoiseMargin.
+/// exceeds 1.5 times the median (a shock) is left out. The model is the measured one, without kNoiseMargin.
 /// @param still samples of one axis, finite, in any unit; the model is in that unit
 /// @return nothing for fewer than kMinStillSamples, and where the samples do not change or mostly do not
 /// Allocates; takes about 4 us per segment.

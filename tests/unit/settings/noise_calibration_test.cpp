@@ -118,6 +118,14 @@ TEST(NoiseCalibration, SaysWhatIsWrongWithALine) {
   document = example_json();
   document["axes"]["x"]["lines"][0].erase("std_radps");
   EXPECT_EQ(complaint(document), "cal.json: axes.x.lines.0.std_radps is missing; expected a number above 0");
+  document = example_json();
+  document["axes"]["x"]["lines"].push_back(document["axes"]["x"]["lines"][0]);
+  EXPECT_EQ(
+      complaint(document),
+      "cal.json: axes.x.lines.1.cycles_per_sample is 0.2; expected lines by frequency, the lowest first");
+  document["axes"]["x"]["lines"][0]["std_radps"] = 1e-170;
+  EXPECT_EQ(complaint(document),
+            "cal.json: axes.x.lines.0.std_radps is 1e-170; expected a standard deviation above 0");
   document["axes"]["x"]["lines"][0] = 7;
   EXPECT_EQ(complaint(document), "cal.json: axes.x.lines.0 is 7; expected an object");
   document["axes"]["x"]["lines"] = json::array({{}, {}, {}, {}});

@@ -1,6 +1,7 @@
 #include "core/joint/line_tracker.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -185,6 +186,35 @@ TEST(LineTracker, AnotherNoiseIsLookedForAnewAndTheSameIsNot) {
   EXPECT_NEAR(tracker.place().cycles, 0.1, kStep);
   tracker.believe({});
   EXPECT_EQ(tracker.line(kOptions).power, 0.0);
+}
+
+// Above 0.4 cycles some places are beyond half a cycle, where there is nothing that could speak against the line.
+TEST(LineTracker, StaysBelowHalfACycle) {
+  LineTracker tracker;
+  tracker.believe(line(0.49, kPower));
+  watch(tracker, Signal(kBins, 1.0), kNoMotion, 400.0 * kShare);
+  EXPECT_LT(tracker.place().cycles, 0.5);
+  watch(tracker, window_with(line_at(0.47, kPower)), kNoMotion);
+  EXPECT_NEAR(tracker.place().cycles, 0.47, 0.49 * 0.0125);
+}
+
+// A weak line that comes and goes, and moves all others by one, takes nothing from what is known of them.
+TEST(LineTracker, ALineStaysWithWhoKnowsIt) {
+  LineTrackers trackers;
+  const SpectralLine strong = line(0.2, kPower);
+  believe(std::array{strong}, trackers);
+  watch(trackers[0], window_with(line_at(0.215, kPower)), kNoMotion);
+  const double known = trackers[0].place().cycles;
+  ASSERT_NEAR(known, 0.215, kStep);
+  believe(std::array{line(0.1, 0.02), strong, line(0.4, 0.02)}, trackers);
+  EXPECT_EQ(trackers[1].place().cycles, known);
+  EXPECT_NEAR(trackers[0].place().cycles, 0.1, 0.1 * 0.0125);
+  EXPECT_NEAR(trackers[2].place().cycles, 0.4, 0.4 * 0.0125);
+  believe({}, trackers);
+  believe(std::array{line(0.1, 0.02), strong}, trackers);
+  EXPECT_EQ(trackers[1].place().cycles, known) << "it comes back";
+  believe(std::array{strong}, trackers);
+  EXPECT_EQ(trackers[0].place().cycles, known);
 }
 
 TEST(LineTracker, StaysFiniteWhateverItSees) {

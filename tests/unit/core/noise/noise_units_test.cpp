@@ -64,6 +64,8 @@ TEST(NoiseUnits, KnowWhatALineIs) {
   EXPECT_NEAR(lag_one_correlation(model), (2.0 + 3.0 * std::cos(0.2 * std::numbers::pi)) / 8.0, 1e-9);
   EXPECT_NEAR(angle_random_walk(model, 100.0), std::sqrt(0.13), 1e-12);
   EXPECT_NEAR(noise_density(model, 100.0), std::sqrt(0.16), 1e-12);
+  // Of what is not a line the density stays, of the line the power.
+  EXPECT_EQ(at_rate(model, 100.0, 200.0), white_noise(13.0));
 }
 
 TEST(NoiseUnits, KeepTheDensityAtAnotherRate) {

@@ -56,6 +56,33 @@ TEST(StandstillMemory, OneLevelVariesByHalfAtTheMost) {
   }
 }
 
+/// Rest with a line of half a deviation at so many cycles per sample on z.
+void stand_with_line(StandstillLearner& learner, double seconds, double cycles, unsigned seed) {
+  Axes axes = testing::still_axes(static_cast<std::size_t>(100.0 * seconds), 0.3, seed);
+  testing::add_tone(axes, 2, 0.15, cycles);
+  testing::run(learner, axes, [] {});
+}
+
+// A restart, and then more rest with the same line: it neither fades nor broadens.
+TEST(StandstillMemory, KeepsALineAcrossRestarts) {
+  const double power = 0.125 * std::pow(0.3 * kRadPerDeg, 2);
+  StandstillState state;
+  for (unsigned run = 0; run < 6; ++run) {
+    StandstillLearner learner(100.0);
+    if (run > 0) {
+      ASSERT_TRUE(learner.restore(state));
+    }
+    stand_with_line(learner, 60.0, 0.22, 20 + run);
+    state = learner.state();
+    const NoiseModel& noise = learner.models()[2];
+    ASSERT_EQ(noise.line_count, 1U) << run;
+    EXPECT_NEAR(noise.line[0].cycles, 0.22, 0.2 / static_cast<double>(kNoiseSegment)) << run;
+    EXPECT_NEAR(noise.line[0].variance, power, 0.15 * power) << run;
+    EXPECT_LT(noise.line[0].half_width, 0.3 / static_cast<double>(kNoiseSegment)) << run;
+    EXPECT_EQ(learner.models()[0].line_count, 0U) << run;
+  }
+}
+
 // Half an hour without a quiet rest in between, not in all.
 TEST(StandstillMemory, AQuietRestBeginsTheHalfHourOfALouderOneAnew) {
   StandstillLearner learner(100.0);
