@@ -78,8 +78,9 @@ Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& 
   if (!response)
     return not_applicable(test.kind, test.limit, "the judged samples hold no whole period of it");
   Guard guard{test.kind,      verdict(std::abs(response->gain - 1.0) <= test.limit),
-              response->gain, response->standard_error,
+              response->gain, std::nullopt,
               test.limit,     ""};
+  if (std::isfinite(response->standard_error)) guard.standard_error = response->standard_error;
   guard.group_delay_samples = response->delay_samples;
   return guard;
 }
@@ -163,7 +164,7 @@ std::optional<SwingResponse> added_swing(const Method& method, const Contender& 
   std::vector<double> change = method.run(swung).estimate;
   assert(change.size() == plain.estimate.size());
   for (std::size_t t = 0; t < change.size(); ++t) change[t] -= plain.estimate[t];
-  return swing_response(change, on.range, frequency, amplitude_dps);
+  return swing_response(change, on.range, frequency, amplitude_dps, kBatchSeconds * second_of(on));
 }
 
 std::vector<Guard> guards(const Method& method, const Contender& plain, const GuardCase& on,

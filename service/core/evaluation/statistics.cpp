@@ -124,6 +124,31 @@ double jackknife_error(double value, std::span<const double> without) noexcept {
   return std::sqrt(squares * (count - 1.0) / count);
 }
 
+/// Normal equations of a swing: of sine, cosine and 1.
+struct SwingSums {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double count = 0.0;
+
+  void add(double frequency, std::size_t t, double value) noexcept {
+    const double phase = 2.0 * std::numbers::pi * frequency * static_cast<double>(t);
+    const Eigen::Vector3d basis(std::sin(phase), std::cos(phase), 1.0);
+    normal += basis * basis.transpose();
+    right += value * basis;
+    count += 1.0;
+  }
+  void add(const SwingSums& other, double sign) noexcept {
+    normal += sign * other.normal;
+    right += sign * other.right;
+    count += sign * other.count;
+  }
+  /// One period, and one sample more than there are unknowns.
+  [[nodiscard]] bool tells(double frequency) const noexcept {
+    return count * frequency >= 1.0 && count >= 4.0;
+  }
+  [[nodiscard]] Eigen::Vector3d fit() const { return normal.ldlt().solve(right); }
+};
+
 /// Place of the greatest coefficient, between two of them by a parabola; nothing where one is not known.
 std::optional<double> peak_of(std::span<const PairSums> sums) {
   std::vector<double> at;
@@ -166,29 +191,34 @@ std::optional<Measured> batch_slope(std::span<const double> x, std::span<const d
 }
 
 std::optional<SwingResponse> swing_response(std::span<const double> change, SampleRange range,
-                                            double frequency, double amplitude) {
-  assert(amplitude > 0.0 && frequency > 0.0 && frequency < 0.5);
-  const double turn = 2.0 * std::numbers::pi * frequency;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double squares = 0.0;
-  double count = 0.0;
-  for (std::size_t t = range.begin; t < std::min(range.end, change.size()); ++t) {
-    if (!std::isfinite(change[t])) continue;
-    const double phase = turn * static_cast<double>(t);
-    const Eigen::Vector3d basis(std::sin(phase), std::cos(phase), 1.0);
-    normal += basis * basis.transpose();
-    right += change[t] * basis;
-    squares += change[t] * change[t];
-    count += 1.0;
+                                            double frequency, double amplitude, std::size_t batch) {
+  assert(amplitude > 0.0 && frequency > 0.0 && frequency < 0.5 && batch >= 1);
+  const std::size_t end = std::min(range.end, change.size());
+  std::vector<SwingSums> batches;
+  SwingSums all;
+  for (std::size_t begin = range.begin; begin < end; begin += batch) {
+    SwingSums sums;
+    for (std::size_t t = begin; t < std::min(end, begin + batch); ++t) {
+      if (std::isfinite(change[t])) sums.add(frequency, t, change[t]);
+    }
+    if (sums.count == 0.0) continue;
+    all.add(sums, 1.0);
+    batches.push_back(sums);
   }
-  if (count * frequency < 1.0 || count < 4.0) return std::nullopt;
-  const Eigen::Vector3d fit = normal.ldlt().solve(right);
-  const double left = std::max(0.0, squares - fit.dot(right)) / (count - 3.0);
+  if (!all.tells(frequency)) return std::nullopt;
+  const Eigen::Vector3d fit = all.fit();
   SwingResponse response;
   response.gain = std::hypot(fit[0], fit[1]) / amplitude;
-  response.standard_error = std::sqrt(2.0 * left / count) / amplitude;
-  response.delay_samples = std::atan2(-fit[1], fit[0]) / turn;
+  response.delay_samples = std::atan2(-fit[1], fit[0]) / (2.0 * std::numbers::pi * frequency);
+  std::vector<double> without;
+  for (const SwingSums& left_out : batches) {
+    SwingSums others = all;
+    others.add(left_out, -1.0);
+    if (!others.tells(frequency)) return response;
+    const Eigen::Vector3d other = others.fit();
+    without.push_back(std::hypot(other[0], other[1]) / amplitude);
+  }
+  response.standard_error = jackknife_error(response.gain, without);
   return response;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -31,14 +32,17 @@ struct Measured {
 
 /// What became of a swing A sin(2 pi f t) that was added to an input: least squares of the output's change on sine, cosine and 1.
 struct SwingResponse {
-  double gain = 0.0;            ///< amplitude out / amplitude in
-  double standard_error = 0.0;  ///< of the gain, as if what the fit leaves were white
-  double delay_samples = 0.0;   ///< above 0: late; within half a period
+  double gain = 0.0;  ///< amplitude out / amplitude in
+  double standard_error = std::numeric_limits<
+      double>::infinity();     ///< of the gain, as of batch_slope(); infinite with less than two batches
+  double delay_samples = 0.0;  ///< above 0: late; within half a period
 };
 /// @param frequency in cycles per sample  @param range of the record in which both are compared
-/// @return nothing where less than one period is known  @pre amplitude > 0, 0 < frequency < 0.5
+/// @param batch samples, longer than the memory of what the fit leaves
+/// @return nothing where less than one period is known  @pre amplitude > 0, 0 < frequency < 0.5, batch > 0
 [[nodiscard]] std::optional<SwingResponse> swing_response(std::span<const double> change, SampleRange range,
-                                                          double frequency, double amplitude);
+                                                          double frequency, double amplitude,
+                                                          std::size_t batch);
 
 /// The shift of `estimate` against `truth` at which their correlation coefficient is greatest, in samples, above 0 where the estimate is
 /// late; between samples by the parabola through the greatest and its neighbours. Standard error as of batch_slope(), infinite with less

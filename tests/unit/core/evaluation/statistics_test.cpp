@@ -91,15 +91,41 @@ TEST(Statistics, SwingResponseFindsGainAndDelay) {
     change[t] = 0.2 + 0.9 * 5.0 * std::sin(2.0 * std::numbers::pi * 0.01 * (static_cast<double>(t) - 7.25));
   }
   change[100] = kNaN;
-  const auto response = swing_response(change, {50, 2973}, 0.01, 5.0);
+  const auto response = swing_response(change, {50, 2973}, 0.01, 5.0, 500);
   ASSERT_TRUE(response);
   EXPECT_NEAR(response->gain, 0.9, 1e-9);
   EXPECT_NEAR(response->delay_samples, 7.25, 1e-6);
   EXPECT_LT(response->standard_error, 1e-6);
 }
 
+// What an estimator misses of slow motion has a memory: here of ten samples, so that near frequency 0 it has 19 times the power of white noise of its variance. As
+// if it were white the error would be claimed 4 times too small.
+TEST(Statistics, TheErrorOfASwingsGainKnowsOfMemory) {
+  double squares = 0.0;
+  constexpr unsigned kRuns = 40;
+  for (unsigned seed = 1; seed <= kRuns; ++seed) {
+    auto change = test::white_noise(12'000, 0.5, seed);
+    for (std::size_t t = 1; t < change.size(); ++t) change[t] += 0.9 * change[t - 1];
+    for (std::size_t t = 0; t < change.size(); ++t)
+      change[t] += 5.0 * std::sin(2.0 * std::numbers::pi * 0.001 * static_cast<double>(t));
+    const auto response = swing_response(change, {0, change.size()}, 0.001, 5.0, 1000);
+    ASSERT_TRUE(response);
+    const double error = (response->gain - 1.0) / response->standard_error;
+    squares += error * error / kRuns;
+  }
+  // Of 40 runs with 11 degrees of freedom each the mean of the square has a standard error of 0.3.
+  EXPECT_GT(squares, 0.4);
+  EXPECT_LT(squares, 2.2);
+}
+
+TEST(Statistics, ASwingInOneBatchHasNoKnownError) {
+  const auto response = swing_response(test::tone(400, 0.01), {0, 400}, 0.01, 1.0, 1000);
+  ASSERT_TRUE(response);
+  EXPECT_TRUE(std::isinf(response->standard_error));
+}
+
 TEST(Statistics, NoSwingResponseFromLessThanAPeriod) {
-  EXPECT_FALSE(swing_response(std::vector<double>(99, 1.0), {0, 99}, 0.01, 5.0));
+  EXPECT_FALSE(swing_response(std::vector<double>(99, 1.0), {0, 99}, 0.01, 5.0, 500));
 }
 
 TEST(Statistics, CorrelationPeaksWhereASeriesWasShifted) {
