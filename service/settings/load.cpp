@@ -32,6 +32,13 @@ void take(const json& value, T& member) {
   }
 }
 
+/// How far the hop widens, where the text does not say: half of its window at the most, and no less than its hop.
+void fit_widest_hop(const json& document, stream::EngineOptions& engine) {
+  if (given_value(document, "limits.max_hop_samples") != nullptr) return;
+  engine.max_hop_samples =
+      std::max(engine.hop_samples, std::min(engine.max_hop_samples, engine.window_samples / 2));
+}
+
 SettingsIssue file_issue(std::string message) {
   return {.key = "", .value = "", .expected = "a readable JSON file", .message = std::move(message)};
 }
@@ -78,6 +85,7 @@ Outcome read_settings(std::string_view text, const fs::path& directory) {
     const json* value = concerned(outcome.issues, key) ? nullptr : given_value(document.root, key);
     if (value != nullptr) take(*value, member);
   });
+  fit_widest_hop(document.root, outcome.settings.engine);
   cross_check(outcome.settings, document.root, directory, outcome.issues);
   sort_by_position(document, outcome.issues);
   const fs::path network = network_file(outcome.settings.bus, directory);

@@ -125,10 +125,23 @@ TEST(SettingsIssues, ALimitThatDependsOnAnotherKeyNamesIt) {
 
 TEST(SettingsIssues, ADefaultThatNoLongerFitsIsCalledOne) {
   EXPECT_THAT(
-      messages(R"({"denoise": {"window_samples": 256}})"),
+      messages(R"({"limits": {"max_channels": 100000}})"),
       ElementsAre(
-          "limits.max_hop_samples is 256 (the default); expected from denoise.hop_samples (32) to half of "
-          "denoise.window_samples (128)"));
+          "bus.input.max_sensors is 65536 (the default); expected at least limits.max_channels (100000)"));
+}
+
+TEST(SettingsIssues, HowFarTheHopWidensFollowsTheWindowWhereItIsNotSaid) {
+  const auto widest = [](const char* text) {
+    const Outcome outcome = read_settings(text, ".");
+    EXPECT_THAT(outcome.issues, IsEmpty()) << text;
+    return outcome.settings.engine.max_hop_samples;
+  };
+  EXPECT_EQ(widest("{}"), 256U);
+  EXPECT_EQ(widest(R"({"denoise": {"window_samples": 256}})"), 128U);
+  EXPECT_EQ(widest(R"({"denoise": {"window_samples": 4096, "hop_samples": 512}})"), 512U);
+  EXPECT_THAT(messages(R"({"denoise": {"window_samples": 256}, "limits": {"max_hop_samples": 256}})"),
+              ElementsAre("limits.max_hop_samples is 256; expected from denoise.hop_samples (32) to half of "
+                          "denoise.window_samples (128)"));
 }
 
 TEST(SettingsIssues, LimitsThatDependOnAnotherKeyAreMetWithEquality) {
@@ -180,9 +193,9 @@ TEST(SettingsIssues, AllErrorsOfAllKindsAreReportedTogether) {
 
 TEST(SettingsIssues, IssuesComeInTheOrderOfTheTextAndDefaultsLast) {
   EXPECT_THAT(messages(R"({"workers": -1, "log": {"loud": 1}, "bus": {"domain": -1},
-                           "denoise": {"window_samples": 256}, "another": 2})"),
+                           "limits": {"max_channels": 100000}, "another": 2})"),
               ElementsAre(StartsWith("workers"), StartsWith("unknown key log.loud"), StartsWith("bus.domain"),
-                          StartsWith("unknown key another"), StartsWith("limits.max_hop_samples")));
+                          StartsWith("unknown key another"), StartsWith("bus.input.max_sensors")));
 }
 
 TEST(SettingsIssues, AKeyThatIsWrongByItselfIsNotComparedWithOthers) {
