@@ -5,13 +5,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/noise/spectrum_floor.hpp"
+
 namespace gyrod::core {
 namespace {
 
 /// Lowest bin that is looked at: below 1/40 cycle per sample noise is slow, and not a line.
 constexpr std::size_t kLowest = kNoiseSegment / 40 + 1;
-/// Below it are bias and its drift.
-constexpr std::size_t kFirstBin = 3;
 constexpr std::size_t kSurroundings = 12;
 constexpr double kAround = 0.2;
 constexpr double kStandsAbove = 4.0;
@@ -29,20 +29,12 @@ constexpr double kLeastHalfWidth = 0.05;
 /// A filter needs a white part, also where lines hold nearly all.
 constexpr double kLeastWhiteOfAll = 1e-4;
 
-double floor_at(const NoiseSpectrum& power, std::size_t bin) noexcept {
-  const auto reach = std::max(kSurroundings, static_cast<std::size_t>(kAround * static_cast<double>(bin)));
-  const std::size_t first = std::max(bin, kFirstBin + reach) - reach;
-  const std::size_t end = std::min(bin + reach + 1, kNoiseBins);
-  NoiseSpectrum near{};
-  const auto count = static_cast<std::ptrdiff_t>(end - first);
-  std::copy_n(power.begin() + static_cast<std::ptrdiff_t>(first), count, near.begin());
-  std::nth_element(near.begin(), near.begin() + count / 2, near.begin() + count);
-  return near[static_cast<std::size_t>(count / 2)];
-}
-
 NoiseSpectrum floor_of(const NoiseSpectrum& power) noexcept {
   NoiseSpectrum floor = power;
-  for (std::size_t k = kFirstBin; k < kNoiseBins; ++k) floor[k] = floor_at(power, k);
+  for (std::size_t k = kFirstNoiseBin; k < kNoiseBins; ++k) {
+    const auto reach = static_cast<std::size_t>(kAround * static_cast<double>(k));
+    floor[k] = median_around(power, k, std::max(kSurroundings, reach));
+  }
   return floor;
 }
 
@@ -67,7 +59,8 @@ Extent extent_of(const NoiseSpectrum& power, const NoiseSpectrum& floor, std::si
   const auto most = std::max(kTaperReach, static_cast<std::size_t>(kLineSpread * static_cast<double>(peak)));
   const auto stands = [&](std::size_t k) { return power[k] > (1.0 + kFoot) * floor[k]; };
   Extent extent{peak, peak};
-  while (extent.first > kFirstBin && peak - extent.first < most && stands(extent.first - 1)) --extent.first;
+  while (extent.first > kFirstNoiseBin && peak - extent.first < most && stands(extent.first - 1))
+    --extent.first;
   while (extent.last + 1 < kNoiseBins && extent.last - peak < most && stands(extent.last + 1)) ++extent.last;
   return extent;
 }
