@@ -37,6 +37,7 @@ core::Method two_speed_method(const std::string& name, const MethodContext& cont
   JointRun run;
   run.sample_rate_hz = context.rate_hz;
   run.window_samples = context.settings.engine.window_samples;
+  run.doublings = stream::doublings_at(context.settings.engine, context.rate_hz);
   run.options = joint_options(context.settings);
   run.max_signal_hz = context.settings.denoise.max_signal_hz;
   run.lag_samples = context.lag_samples;

@@ -9,6 +9,7 @@
 #include "app/version.hpp"
 #include "core/signal/moments.hpp"
 #include "settings/enum_names.hpp"
+#include "stream/hop_schedule.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -136,9 +137,12 @@ Json record_json(const EvaluationRows& rows) {
 
 Json configuration_json(const EvaluationRows& rows, const EvaluationOptions& options) {
   const stream::EngineOptions& engine = options.settings.engine;
+  const unsigned doublings = stream::doublings_at(engine, rows.rate_hz);
   return Json{{"methods", options.methods},
               {"window_samples", engine.window_samples},
               {"hop_samples", engine.hop_samples},
+              {"joint_window_samples", engine.window_samples << doublings},
+              {"joint_hop_samples", engine.hop_samples << stream::hop_doublings(doublings)},
               {"lag_samples", engine.lag_samples},
               {"max_signal_hz", options.settings.denoise.max_signal_hz},
               {"noise_source", settings::name_of(rows.noise_source)},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/evaluation_report.hpp"
+#include "stream/hop_schedule.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -56,6 +57,14 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// Where joint's windows are longer than configured.
+std::string longer_windows(const stream::EngineOptions& engine, double rate_hz) {
+  const unsigned doublings = stream::doublings_at(engine, rate_hz);
+  if (doublings == 0) return "";
+  return " (joint and realtime at this rate: " + std::to_string(engine.window_samples << doublings) + ", " +
+         std::to_string(engine.hop_samples << stream::hop_doublings(doublings)) + ")";
+}
+
 /// What was run on what, so that it can be run again.
 std::string head(const Evaluation& evaluation) {
   const auto& [rows, options, judged] = evaluation;
@@ -73,8 +82,8 @@ std::string head(const Evaluation& evaluation) {
   if (!rows.calibration_file.empty()) text += "calibration of the noise: " + rows.calibration_file + "\n";
   return text + "judged: " + joined(options.methods) + " on samples " + std::to_string(options.range.begin) +
          " to " + std::to_string(options.range.end) + "; window " + std::to_string(engine.window_samples) +
-         ", hop " + std::to_string(engine.hop_samples) + ", lag " + std::to_string(engine.lag_samples) +
-         " samples, " +
+         ", hop " + std::to_string(engine.hop_samples) + longer_windows(engine, rows.rate_hz) + ", lag " +
+         std::to_string(engine.lag_samples) + " samples, " +
          (max_signal_hz > 0.0 ? "signal up to " + short_number(max_signal_hz) + " Hz"
                               : "signal of any frequency") +
          "\n";

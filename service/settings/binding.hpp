@@ -68,6 +68,7 @@ void visit_algorithm(Settings& settings, Visit& visit) {
   visit("denoise.screening", settings.denoise.screening);
   visit("denoise.window_samples", settings.engine.window_samples);
   visit("denoise.hop_samples", settings.engine.hop_samples);
+  visit("denoise.stretch_windows", settings.engine.stretch_windows);
   visit("denoise.lag_samples", settings.engine.lag_samples);
   visit("denoise.sample_rate_hz", settings.engine.sample_rate_hz);
   visit("denoise.sifts", settings.denoise.sifts);

@@ -16,6 +16,14 @@ HopSchedule::Options schedule_options(const EngineOptions& options) {
 
 }  // namespace
 
+unsigned doublings_at(const EngineOptions& options, double sample_rate_hz) noexcept {
+  return options.stretch_windows ? doublings_at(sample_rate_hz, options.window_samples) : 0;
+}
+
+std::size_t channel_positions(const EngineOptions& options, unsigned doublings) noexcept {
+  return most_held_samples(options) << doublings;
+}
+
 std::size_t most_held_samples(const EngineOptions& options) noexcept {
   return options.window_samples + options.max_queued_windows * options.hop_samples +
          2 * options.max_hop_samples;
@@ -24,7 +32,7 @@ std::size_t most_held_samples(const EngineOptions& options) noexcept {
 Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMethodFactory* models)
     : gate({options.sample_rate_hz, options.max_rate_radps, options.max_bridged_samples}),
       schedule(schedule_options(options)),
-      ring(most_held_samples(options)),
+      ring(channel_positions(options, 0)),
       watch(options.health, options.window_samples),
       sensor_(std::move(sensor)),
       jobs_(options.max_queued_windows),

@@ -30,7 +30,10 @@ enum class Place : std::uint8_t {
   kBridged,  ///< an interpolated place of a missing sample
 };
 
-/// Everything a channel owns, sized when it opens.
+/// Positions that a channel remembers: the window at hand, those that wait, and the stretch up to the next, widest hop.
+[[nodiscard]] std::size_t channel_positions(const EngineOptions& options, unsigned doublings) noexcept;
+
+/// Everything a channel owns, sized when it opens; of model methods the ring once more for each doubling of windows.
 ///
 /// Two parties touch it. The *intake* (the thread that pushes) judges and appends samples and submits
 /// windows. The *owner* (at most one worker at a time, or the intake itself) works on the oldest window. What

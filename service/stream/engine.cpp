@@ -29,7 +29,7 @@ std::size_t longest_lag(const EngineOptions& options, const MethodFactory& metho
 
 const EngineOptions& validated(const EngineOptions& options, const MethodFactory& method) {
   const std::size_t window = options.window_samples;
-  require<std::size_t>("window_samples", window, 64, 65536);
+  require<std::size_t>("window_samples", window, 64, kLongestWindow);
   require<std::size_t>("hop_samples", options.hop_samples, 1, window / 2);
   require<std::size_t>("max_hop_samples", options.max_hop_samples, options.hop_samples, window / 2);
   require<std::size_t>("lag_samples", options.lag_samples, 0, longest_lag(options, method));

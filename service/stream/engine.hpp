@@ -53,6 +53,8 @@ struct EngineOptions {
   std::size_t hop_samples = 32;
   /// Widest hop under overload, samples; hop_samples..window_samples/2.
   std::size_t max_hop_samples = 256;
+  /// Model methods: windows of fast sensors are longer than that, as doublings_at() says, and further apart (hop_doublings()).
+  bool stretch_windows = true;
   /// Look-ahead of a released sample, samples. 0..window_samples/4; of a model method at most kMaxModelLagSamples.
   std::size_t lag_samples = 16;
   /// Windows of one channel that may wait for a worker. 1..64.
@@ -89,8 +91,11 @@ struct EngineOptions {
   std::function<std::unique_ptr<NoiseLearner>(std::string_view sensor)> learner;
 };
 
-/// Accepted samples of one sensor that the engine has not released, at the most: the window at hand, those that wait, and the stretch
-/// up to the next, widest hop.
+/// How often the window of a model method is doubled at this sample rate (0 while unknown), once windows of fewer doublings are full.
+[[nodiscard]] unsigned doublings_at(const EngineOptions& options, double sample_rate_hz) noexcept;
+
+/// Accepted samples of one sensor that the engine has not released, at the most: of a window method the window at hand, those that wait, and the
+/// stretch up to the next, widest hop; of a model method no more than its lag.
 [[nodiscard]] std::size_t most_held_samples(const EngineOptions& options) noexcept;
 
 /// Seconds of a steady clock; tests inject their own.

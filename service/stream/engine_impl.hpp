@@ -63,6 +63,8 @@ class Engine::Impl {
   void step_fast_loop(Channel& channel, const Sample& newest, Place place);
   [[nodiscard]] std::uint32_t state_flags(const Channel& channel) const;
   [[nodiscard]] bool adopt_models(Channel& channel);
+  void follow_rate(Channel& channel);
+  [[nodiscard]] bool make_room(Channel& channel, unsigned doublings);
   [[nodiscard]] bool models_are_late(const Channel& channel) const;
   void release_estimate(Channel& channel, Position position, const std::array<Estimate, kAxes>& estimate,
                         std::uint32_t flags);

@@ -101,7 +101,9 @@ void Engine::Impl::hop(Channel& channel) {
   // moment.
   const bool late = channel.fast_loop && due && !adopt_models(channel);
   if (channel.fast_loop) channel.models_late = models_are_late(channel);
-  if (due && !late) submit(channel, channel.schedule.take(channel.ring.end()));
+  if (!due || late) return;
+  if (channel.fast_loop) follow_rate(channel);
+  submit(channel, channel.schedule.take(channel.ring.end()));
 }
 
 /// Overload step 1: windows that wait too long come less often.

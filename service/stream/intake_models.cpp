@@ -1,6 +1,7 @@
 /// The fast loop of model methods inside push(): step, hand-over, release.
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "stream/engine_impl.hpp"
 
@@ -70,14 +71,37 @@ bool Engine::Impl::adopt_models(Channel& channel) {
   return true;
 }
 
-/// At a hop's end, new models having been taken over if there were any: whether those of the window that ended one configured hop
+/// At a hop's end, new models having been taken over if there were any: whether those of the window that ended one step
 /// before are not in use, though that window was long enough for models.
 bool Engine::Impl::models_are_late(const Channel& channel) const {
-  const Position due = channel.ring.end() - static_cast<Position>(options_.hop_samples);
-  const Position length =
-      std::min(due - channel.schedule.segment_begin(), static_cast<Position>(options_.window_samples));
+  const Position due = channel.ring.end() - channel.schedule.step();
+  const Position length = std::min(due - channel.schedule.segment_begin(), channel.schedule.window());
   const auto least = static_cast<Position>(benches_.back()->min_samples());
   return length >= std::max<Position>(least, 1) && channel.fast_loop->origin().window_end != due;
+}
+
+/// At a hop's end whose window is due, the models of the one before having been taken over: nobody works on the channel.
+void Engine::Impl::follow_rate(Channel& channel) {
+  HopSchedule& schedule = channel.schedule;
+  const unsigned wanted = doublings_at(options_, channel.gate.rate_hz());
+  if (wanted < schedule.doublings()) {
+    schedule.shorten_windows(wanted, channel.ring.end());
+  } else if (wanted > schedule.doublings() && schedule.can_double(channel.ring.end()) &&
+             make_room(channel, schedule.doublings() + 1)) {
+    schedule.double_windows();
+  }
+}
+
+/// The only memory that push() takes for a channel that is open, once for each of its doublings.
+/// @return false where there is none: windows stay as they are
+bool Engine::Impl::make_room(Channel& channel, unsigned doublings) {
+  try {
+    for (const auto& bench : benches_) bench->make_room(doublings);
+    channel.ring.grow(channel_positions(options_, doublings));
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
 }
 
 void Engine::Impl::release_estimate(Channel& channel, Position position,

@@ -169,8 +169,10 @@ class JointFilter final : public SampleFilter {
 ModelMethodFactory joint_method(const core::JointOptions& options, double max_signal_hz) {
   return {
       .method =
-          [options, max_signal_hz](std::size_t window_samples) {
-            return std::make_unique<JointMethod>(window_samples, options, max_signal_hz);
+          [options, max_signal_hz](std::size_t window_samples, std::size_t hop_samples) {
+            core::JointOptions own = options;
+            own.hop_samples = hop_samples;
+            return std::make_unique<JointMethod>(window_samples, own, max_signal_hz);
           },
       .model = [] { return std::make_unique<JointState>(); },
       .filter =

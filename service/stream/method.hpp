@@ -121,8 +121,8 @@ struct WindowMethodFactory {
 
 /// Makes the parts of a model method.
 struct ModelMethodFactory {
-  /// One a worker.
-  std::function<std::unique_ptr<ModelMethod>(std::size_t window_samples)> method;
+  /// One a worker, and for each window and hop in use.
+  std::function<std::unique_ptr<ModelMethod>(std::size_t window_samples, std::size_t hop_samples)> method;
   /// One an axis of a channel.
   std::function<std::unique_ptr<Model>()> model;
   /// One an axis of a channel.

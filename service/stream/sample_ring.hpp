@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "stream/sample.hpp"
@@ -18,12 +19,22 @@ using Position = std::int64_t;
 
 /// Ring of the newest `capacity` positions: angular rates per axis, sequence number, stamp. One thread
 /// appends; others may at the same time read positions appended before, handed to them through a lock, as
-/// long as the appender keeps `capacity` between the oldest position still needed and the newest. Sized once,
-/// allocates nothing after.
+/// long as the appender keeps `capacity` between the oldest position still needed and the newest. Allocates nothing but in grow().
 class SampleRing {
  public:
   explicit SampleRing(std::size_t capacity) : stamps_(capacity), sequences_(capacity), released_(capacity) {
     for (auto& axis : rates_) axis.resize(capacity);
+  }
+
+  /// Makes room for more positions; those that it holds stay. @pre nobody else reads @throws std::bad_alloc, as it was before
+  void grow(std::size_t capacity) {
+    if (capacity <= this->capacity()) return;
+    SampleRing larger(capacity);
+    const auto held = std::min(end_, static_cast<Position>(this->capacity()));
+    larger.end_ = end_ - held;
+    for (Position position = end_ - held; position < end_; ++position)
+      larger.append(at(position), released(position));
+    *this = std::move(larger);
   }
 
   [[nodiscard]] std::size_t capacity() const noexcept { return stamps_.size(); }

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
+#include <utility>
+#include <variant>
 
 namespace gyrod::stream {
 namespace {
-
-auto make_method(const MethodFactory& factory, std::size_t window_samples) {
-  using Method = std::variant<std::unique_ptr<WindowMethod>, std::unique_ptr<ModelMethod>>;
-  return std::visit([&](const auto& kind) -> Method { return kind.method(window_samples); }, factory);
-}
 
 /// The least variance above 0 of the axes but this one; 0 where there is none.
 double least_of_others(const std::array<double, kAxes>& variance, std::size_t axis) noexcept {
@@ -23,28 +19,55 @@ double least_of_others(const std::array<double, kAxes>& variance, std::size_t ax
   return least;
 }
 
+/// One axis of the window, in `room`.
+WindowInput input(std::span<double> room, const Channel& channel, const WindowJob& job,
+                  std::size_t axis) noexcept {
+  const std::span<double> samples = room.first(static_cast<std::size_t>(job.end - job.begin));
+  channel.ring.copy(axis, job.begin, samples);
+  return {.samples = samples,
+          .sample_rate_hz = job.sample_rate_hz,
+          .noise_source = job.noise.source,
+          .noise = job.noise.axis[axis]};
+}
+
 }  // namespace
 
 Workbench::Workbench(const EngineOptions& options, const MethodFactory& factory)
-    : method_(make_method(factory, options.window_samples)),
-      window_(options.window_samples),
-      denoised_(options.window_samples) {
-  samples_.reserve(options.window_samples);
+    : window_samples_(options.window_samples),
+      hop_samples_(options.hop_samples),
+      models_(std::get_if<ModelMethodFactory>(&factory)) {
+  if (models_ != nullptr) {
+    make_room(0);
+  } else {
+    window_method_ = std::get<WindowMethodFactory>(factory).method(window_samples_);
+    window_.resize(window_samples_);
+    denoised_.resize(window_samples_);
+    samples_.reserve(window_samples_);
+  }
+}
+
+void Workbench::make_room(unsigned doublings) {
+  ModelTool& tool = tools_.at(doublings);
+  if (models_ == nullptr || tool.method != nullptr) return;
+  const std::size_t window = window_samples_ << doublings;
+  ModelTool made{models_->method(window, hop_samples_ << hop_doublings(doublings)),
+                 std::vector<double>(window)};
+  tool = std::move(made);
 }
 
 void Workbench::work(Channel& channel, const WindowJob& job, bool pass_through) noexcept {
   const auto length = static_cast<std::size_t>(job.end - job.begin);
   has_report_ = !pass_through && length >= min_samples();
   samples_.clear();
-  if (std::holds_alternative<std::unique_ptr<WindowMethod>>(method_)) {
+  if (window_method_ != nullptr) {
     collect(channel, job);
     if (has_report_) {
-      denoise(*std::get<std::unique_ptr<WindowMethod>>(method_), channel, job);
+      denoise(channel, job);
     } else {
       for (auto& sample : samples_) sample.flags |= static_cast<std::uint32_t>(SampleFlag::kPassThrough);
     }
   } else if (has_report_) {
-    fit(*std::get<std::unique_ptr<ModelMethod>>(method_), channel, job);
+    fit(tools_[job.doublings], channel, job);
   }
   if (has_report_) describe(channel, job);
   if (job.ends_stream && channel.fast_loop) channel.fast_loop->reset_models();
@@ -62,10 +85,10 @@ void Workbench::collect(const Channel& channel, const WindowJob& job) noexcept {
   }
 }
 
-void Workbench::denoise(WindowMethod& method, Channel& channel, const WindowJob& job) noexcept {
+void Workbench::denoise(Channel& channel, const WindowJob& job) noexcept {
   const std::span<double> denoised{denoised_.data(), static_cast<std::size_t>(job.end - job.begin)};
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    method.denoise(input(channel, job, axis), denoised, report_.axis[axis]);
+    window_method_->denoise(input(window_, channel, job, axis), denoised, report_.axis[axis]);
     channel.splice->join(job, axis, denoised);
     std::size_t index = 0;
     for (Position position = job.release_begin; position < job.release_end; ++position) {
@@ -78,26 +101,16 @@ void Workbench::denoise(WindowMethod& method, Channel& channel, const WindowJob&
   }
 }
 
-void Workbench::fit(ModelMethod& method, Channel& channel, const WindowJob& job) noexcept {
+void Workbench::fit(ModelTool& tool, Channel& channel, const WindowJob& job) noexcept {
   // As they were before this window: the answers do not depend on the order of the axes.
   std::array<double, kAxes> noise{};
   for (std::size_t axis = 0; axis < kAxes; ++axis)
     noise[axis] = channel.fast_loop->model(axis).noise_variance();
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    WindowInput window = input(channel, job, axis);
+    WindowInput window = input(tool.window, channel, job, axis);
     window.others_noise = least_of_others(noise, axis);
-    method.fit(window, channel.fast_loop->model(axis), report_.axis[axis]);
+    tool.method->fit(window, channel.fast_loop->model(axis), report_.axis[axis]);
   }
-}
-
-/// One axis of the window. Valid until the next call.
-WindowInput Workbench::input(const Channel& channel, const WindowJob& job, std::size_t axis) noexcept {
-  const std::span<double> samples{window_.data(), static_cast<std::size_t>(job.end - job.begin)};
-  channel.ring.copy(axis, job.begin, samples);
-  return {.samples = samples,
-          .sample_rate_hz = job.sample_rate_hz,
-          .noise_source = job.noise.source,
-          .noise = job.noise.axis[axis]};
 }
 
 /// The report's frame around the axes' figures, and the epoch of the samples.
@@ -122,7 +135,7 @@ void Workbench::describe(Channel& channel, const WindowJob& job) noexcept {
 }
 
 std::size_t Workbench::min_samples() const noexcept {
-  return std::visit([](const auto& method) { return method->min_samples(); }, method_);
+  return window_method_ != nullptr ? window_method_->min_samples() : tools_[0].method->min_samples();
 }
 
 void Workbench::count_times(double window_time_s, double added_latency_s) {

@@ -1,10 +1,10 @@
 /// What one worker works with: its copy of the method and its buffers.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "stream/channel.hpp"
@@ -13,10 +13,15 @@
 
 namespace gyrod::stream {
 
-/// Turns a window job into released samples and a report. Sized once; work() allocates nothing. One a worker.
+/// Turns a window job into released samples and a report. work() allocates nothing. One a worker.
 class Workbench {
  public:
+  /// @param factory outlives the bench
   Workbench(const EngineOptions& options, const MethodFactory& factory);
+
+  /// Models of windows that are doubled so many times can be made from here on. While another thread is in work(), with jobs of fewer doublings.
+  /// By one thread. @throws std::bad_alloc, as it was before
+  void make_room(unsigned doublings);
 
   /// Works on one window of the channel; the result stands in samples() and report() until the next call.
   /// @param pass_through release the samples as measured, flagged (overload step 2, or the stop's deadline
@@ -40,14 +45,23 @@ class Workbench {
   void add_times_to(EngineSnapshot& snapshot) const;
 
  private:
-  void collect(const Channel& channel, const WindowJob& job) noexcept;
-  void denoise(WindowMethod& method, Channel& channel, const WindowJob& job) noexcept;
-  void fit(ModelMethod& method, Channel& channel, const WindowJob& job) noexcept;
-  void describe(Channel& channel, const WindowJob& job) noexcept;
-  [[nodiscard]] WindowInput input(const Channel& channel, const WindowJob& job, std::size_t axis) noexcept;
+  /// For windows of one length.
+  struct ModelTool {
+    std::unique_ptr<ModelMethod> method;
+    std::vector<double> window;
+  };
 
-  std::variant<std::unique_ptr<WindowMethod>, std::unique_ptr<ModelMethod>> method_;
-  std::vector<double> window_;
+  void collect(const Channel& channel, const WindowJob& job) noexcept;
+  void denoise(Channel& channel, const WindowJob& job) noexcept;
+  void fit(ModelTool& tool, Channel& channel, const WindowJob& job) noexcept;
+  void describe(Channel& channel, const WindowJob& job) noexcept;
+
+  std::size_t window_samples_;
+  std::size_t hop_samples_;
+  const ModelMethodFactory* models_;                 ///< none for a window method
+  std::unique_ptr<WindowMethod> window_method_;      ///< none for a model method
+  std::array<ModelTool, kMostDoublings + 1> tools_;  ///< by doublings
+  std::vector<double> window_;                       ///< of a window method
   std::vector<double> denoised_;
   std::vector<DenoisedSample> samples_;
   NoiseReport report_;

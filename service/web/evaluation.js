@@ -58,6 +58,7 @@
       ["noise", record.noise === null ? "the recording's own" : `${record.noise}: ${mapped(record.noise_axes)}, from sample ${record.noise_start_sample} on; ${record.noise_spare_samples} samples are not added`],
       ["methods", how.methods.join(", ")],
       ["window, hop, lag", `${how.window_samples}, ${how.hop_samples}, ${how.lag_samples} samples`],
+      ["window, hop of joint and realtime", `${how.joint_window_samples}, ${how.joint_hop_samples} samples`],
       ["max_signal_hz", how.max_signal_hz === 0 ? "0: all is signal" : `${tick(how.max_signal_hz)}`],
       ["turns", how.turn_repeats === null ? "none" : `${how.turn_repeats} runs each`],
       ...(record.calibration === null ? [] : [["calibration", record.calibration]]),

@@ -125,6 +125,8 @@ TEST_F(Evaluate, RecordsWhatWasRun) {
   EXPECT_EQ(own["configuration"], json({{"methods", {"realtime"}},
                                         {"window_samples", 1024},
                                         {"hop_samples", 64},
+                                        {"joint_window_samples", 1024},
+                                        {"joint_hop_samples", 64},
                                         {"lag_samples", 16},
                                         {"max_signal_hz", 20.0},
                                         {"noise_source", "auto"},

@@ -38,10 +38,11 @@ class LiveEqualsOffline : public Rig {
     replay(recording, sensor, batch, unit, out);
     ASSERT_EQ(recorder->wait(), app::kDone) << recorder->err();
   }
-  void simulate_drive(const std::string& out) {
-    ASSERT_EQ(run({"simulate", "--motion", "drive", "--samples", std::to_string(kDrive), "-o", path(out)})
-                  .exit_code,
-              0);
+  void simulate_drive(const std::string& out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {
+        "simulate", "--motion", "drive", "--samples", std::to_string(kDrive), "-o", path(out)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ASSERT_EQ(run(arguments).exit_code, 0);
   }
   void denoise(const std::string& recording, const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"denoise", path(recording), "-o", path(out), "--std"};
@@ -88,6 +89,11 @@ TEST_F(LiveEqualsOffline, OnASimulatedDriveForAnyNumberOfWorkersAndAnyBatch) {
   simulate_drive("drive.csv");
   expect_same("drive.csv", "radps");
   EXPECT_EQ(columns_of(path("live.csv"), {"sequence"}).size(), kDrive);
+}
+
+TEST_F(LiveEqualsOffline, OnAFastSensorWhoseWindowsDouble) {
+  simulate_drive("fast.csv", {"--rate", "1000"});
+  expect_same("fast.csv", "radps");
 }
 
 TEST_F(LiveEqualsOffline, ByMethodPaper) {

@@ -25,6 +25,14 @@ inline constexpr std::int64_t kPeriodNs = 10'000'000;  // 100 Hz
   return samples;
 }
 
+/// The same samples of a sensor with another rate, Hz.
+[[nodiscard]] inline std::vector<stream::Sample> at_rate(std::vector<stream::Sample> samples,
+                                                         std::int64_t rate_hz) {
+  for (stream::Sample& sample : samples)
+    sample.stamp_ns = static_cast<std::int64_t>(sample.sequence) * (1'000'000'000 / rate_hz);
+  return samples;
+}
+
 /// A slow swing with pseudo-random noise from a fixed linear congruential generator.
 [[nodiscard]] inline std::vector<stream::Sample> noisy_samples(std::uint64_t count, std::uint64_t seed = 1) {
   std::vector<stream::Sample> samples;

@@ -95,6 +95,7 @@ class LastSampleMethod final : public stream::ModelMethod {
     if (on_window_) on_window_();
     report = {};
     report.noise_floor = window.samples.back();
+    report.window_samples = window.samples.size();
     auto& state = static_cast<LastSampleModel&>(model);
     state.last = window.samples.back();
     report.modes = ++state.windows;
@@ -106,7 +107,7 @@ class LastSampleMethod final : public stream::ModelMethod {
 };
 
 [[nodiscard]] inline stream::ModelMethodFactory last_sample_method(std::function<void()> on_window = {}) {
-  return {[on_window](std::size_t) { return std::make_unique<LastSampleMethod>(on_window); },
+  return {[on_window](std::size_t, std::size_t) { return std::make_unique<LastSampleMethod>(on_window); },
           [] { return std::make_unique<LastSampleModel>(); },
           [](std::size_t lag) { return std::make_unique<LastSampleFilter>(lag); }};
 }

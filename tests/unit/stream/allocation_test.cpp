@@ -41,6 +41,29 @@ TEST(SamplePath, AllocatesNothingAfterWarmUp) {
   EXPECT_EQ(allocations_after_warm_up(testing::last_sample_method(), 2), 0U);
 }
 
+TEST(SamplePath, AllocatesForEachDoublingOfAFastSensorsWindowsAndNeverAgain) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
+  EngineOptions options;
+  options.window_samples = 256;
+  options.max_hop_samples = 128;
+  options.workers = 2;
+  options.max_delay_s = 3600.0;
+  NullSink sink;
+  Engine engine(options, testing::last_sample_method(), sink);
+  const auto samples = testing::at_rate(testing::noisy_samples(8000), 1000);
+  const std::span<const Sample> all{samples};
+  const auto allocations_in = [&](std::size_t from, std::size_t to) {
+    const std::uint64_t before = testing::allocations();
+    for (std::size_t n = from; n < to; n += 8) engine.push("imu", all.subspan(n, 8));
+    engine.wait_idle();
+    return testing::allocations() - before;
+  };
+  EXPECT_GT(allocations_in(0, 1024), 0U) << "256 to 512 to 1024 samples to 2048";
+  EXPECT_EQ(allocations_in(1032, 4000), 0U);
+  engine.end_of_stream("imu");
+  EXPECT_EQ(allocations_in(4000, 8000), 0U) << "the second stretch has what the first one needed";
+}
+
 TEST(SamplePath, TheCounterCounts) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
   const std::uint64_t before = testing::allocations();

@@ -30,11 +30,59 @@ TEST(EngineWithModels, UsesAModelFromTheSampleAfterTheNextHopOn) {
   }
 }
 
+TEST(EngineWithModels, WindowsOfAFastSensorDoubleAndModelsServeFromTheNextWindowOn) {
+  RecordingSink sink;
+  Engine engine(small_options(2), testing::last_sample_method(), sink);
+  engine.push("imu", testing::at_rate(counting_samples(1024), 500));
+  engine.wait_idle();
+  std::vector<std::size_t> windows;
+  for (const NoiseReport& report : sink.reports("imu")) windows.push_back(report.axis[0].window_samples);
+  // 500 Hz: twice doubled from 128 samples, and the hop once from 32.
+  EXPECT_EQ(windows, (std::vector<std::size_t>{32,  64,  96,  128, 160, 192, 224, 256, 320, 384,
+                                               448, 512, 512, 512, 512, 512, 512, 512, 512, 512}));
+  const std::vector<std::size_t> ends{0,   32,  64,  96,  128, 160, 192, 224, 256, 320, 384,
+                                      448, 512, 576, 640, 704, 768, 832, 896, 960, 1024};
+  const auto output = sink.realtime("imu");
+  ASSERT_EQ(output.size(), 1024U);
+  for (std::size_t n = 32, i = 1; n < output.size(); ++n) {
+    if (n == ends[i + 1]) ++i;
+    const double model = i == 1 ? 0.0 : static_cast<double>(ends[i - 1]) - 1.0;
+    EXPECT_EQ(output[n].rate_radps[0], static_cast<double>(n) + 1000.0 * model) << "sample " << n;
+    EXPECT_EQ(has_flag(output[n], SampleFlag::kHopWidened), false) << "sample " << n;
+    EXPECT_EQ(has_flag(output[n], SampleFlag::kWarmingUp), n + 1 < 128) << "sample " << n;
+  }
+}
+
+TEST(EngineWithModels, WindowsStayAsConfiguredWhereTheyAreNotToFollowTheRate) {
+  RecordingSink sink;
+  EngineOptions options = small_options(0);
+  options.stretch_windows = false;
+  Engine engine(options, testing::last_sample_method(), sink);
+  engine.push("imu", testing::at_rate(counting_samples(1024), 500));
+  EXPECT_EQ(sink.reports("imu").back().axis[0].window_samples, 128U);
+  EXPECT_EQ(sink.reports("imu").size(), 32U);
+}
+
+TEST(EngineWithModels, WindowsAreShortAgainWhereTheSensorHasBecomeSlow) {
+  RecordingSink sink;
+  Engine engine(small_options(0), testing::last_sample_method(), sink);
+  auto samples = testing::at_rate(counting_samples(1024), 500);
+  engine.push("imu", samples);
+  for (const Sample& slow : counting_samples(512, 1024)) {
+    Sample next = slow;
+    next.stamp_ns = samples.back().stamp_ns + static_cast<std::int64_t>(slow.sequence - 1023) * 5'000'000;
+    engine.push("imu", {&next, 1});
+  }
+  EXPECT_EQ(sink.reports("imu").back().axis[0].window_samples, 128U);
+  expect_conserved(engine.snapshot().totals);
+}
+
 TEST(EngineWithModels, ADelayedWorkerChangesNoBits) {
   const auto run = [](std::size_t workers, const std::function<void()>& on_window) {
     RecordingSink sink;
     Engine engine(small_options(workers), testing::last_sample_method(on_window), sink);
-    for (const Sample& sample : counting_samples(640)) engine.push("imu", {&sample, 1});
+    for (const Sample& sample : testing::at_rate(counting_samples(1200), 500))
+      engine.push("imu", {&sample, 1});
     engine.end_of_stream("imu");
     engine.wait_idle();
     return std::pair{sink.samples("imu"), sink.realtime("imu")};

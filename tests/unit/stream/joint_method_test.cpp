@@ -56,7 +56,7 @@ struct Axis {
   }
 
   ModelMethodFactory factory;
-  std::unique_ptr<ModelMethod> method = factory.method(kJointWindow);
+  std::unique_ptr<ModelMethod> method = factory.method(kJointWindow, 32);
   std::unique_ptr<Model> model = factory.model();
   std::unique_ptr<SampleFilter> filter = factory.filter(kJointLag);
 };

@@ -30,7 +30,7 @@ class MisfitOfAFilter : public ::testing::Test {
   void use(double rate_hz, double believed) {
     const auto noise = testing::times(testing::white_noise(1024, 1), kStd);
     const auto model = factory_.model();
-    const auto method = factory_.method(1024);
+    const auto method = factory_.method(1024, 32);
     core::WindowReport report;
     const WindowInput window{.samples = noise,
                              .sample_rate_hz = rate_hz,

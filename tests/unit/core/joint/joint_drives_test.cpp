@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         Setting{"nothing_known_of_imu4_x", noise_of(4, 'x', 0), 1.01, kNothing, 120.0, 1024, "z"},
         Setting{"at_50_Hz", noise_of(1, 'x', 0), 1.0, 0.0, 50.0},
         Setting{"at_200_Hz_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 200.0, 1024, "z"},
-        Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.02, 0.0, 400.0, 1024, "z"},
+        Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.01, 0.0, 400.0, 2048, "z"},
         Setting{"window_512", noise_of(1, 'x', 0), 1.02, 0.0, 120.0, 512},
         Setting{"window_2048", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 2048}),
     [](const auto& info) { return std::string(info.param.name); });
