@@ -17,10 +17,10 @@ namespace gyrod::stream {
 /// Longest window, samples.
 inline constexpr std::size_t kLongestWindow = 65'536;
 /// Most doublings of window and hop.
-inline constexpr unsigned kMostDoublings = 3;
+inline constexpr unsigned kMostDoublings = 2;
 
-/// How often the window of a model method doubles where a sensor is fast: the default of 1024 samples then lasts 4.7 to 9.5 s at 108 to 1728 Hz.
-/// Sensors of 208, 416 and 833 Hz, or of 225, 450 and 900 Hz, stay on their side. At most kMostDoublings, and no longer than kLongestWindow.
+/// How often the window of a model method doubles where a sensor is fast: the default of 1024 samples then lasts 4.7 to 9.5 s at 108 to 864 Hz.
+/// Sensors of 208 and 416 Hz, or of 225 and 450 Hz, stay on their side. At most kMostDoublings, and no longer than kLongestWindow.
 /// Source: docs/decisions/0007, "Windows of fast sensors".
 /// @param sample_rate_hz 0 while unknown
 [[nodiscard]] unsigned doublings_at(double sample_rate_hz, std::size_t window_samples) noexcept;

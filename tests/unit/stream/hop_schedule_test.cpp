@@ -155,10 +155,8 @@ TEST(HopSchedule, TheSensorsOfAFamilyStayOnTheirSide) {
     EXPECT_EQ(doublings_at(slow, 1024), 0U) << slow;
   for (const double fast : {225.0 * 0.97, 250.0, 286.0, 400.0, 416.0 * 1.03})
     EXPECT_EQ(doublings_at(fast, 1024), 1U) << fast;
-  for (const double faster : {450.0 * 0.97, 500.0, 800.0, 833.0 * 1.03})
+  for (const double faster : {450.0 * 0.97, 500.0, 800.0, 1000.0, 2000.0, 1e6})
     EXPECT_EQ(doublings_at(faster, 1024), 2U) << faster;
-  for (const double fastest : {900.0 * 0.97, 1000.0, 2000.0, 1e6})
-    EXPECT_EQ(doublings_at(fastest, 1024), 3U) << fastest;
   EXPECT_EQ(doublings_at(1000.0, 32'768), 1U) << "no longer than the longest";
   EXPECT_EQ(doublings_at(1000.0, kLongestWindow), 0U);
   EXPECT_EQ(doublings_at(std::numeric_limits<double>::quiet_NaN(), 1024), 0U);
