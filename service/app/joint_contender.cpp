@@ -110,7 +110,7 @@ core::Contender joint_contender(const JointRun& run, std::span<const double> noi
   estimates.contender.name = run.realtime ? "realtime" : "joint";
   estimates.contender.lag_samples = lag;
   const std::size_t hop = slow_loop.hop();
-  estimates.contender.joints = core::JointPattern{hop, (hop - lag % hop) % hop};
+  estimates.contender.seams = core::SeamPattern{hop, (hop - lag % hop) % hop};
   return std::move(estimates.contender);
 }
 

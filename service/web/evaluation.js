@@ -130,9 +130,9 @@
     "slow-turn-gain": ["gain at 0.1 Hz", "1 ±"],
     "swing-gain": ["gain at 1 Hz", "1 ±"],
     "scale-factor": ["scale factor of slow motion", "1 ±"],
-    "joint-roughness": ["roughness at joints", "≤"],
-    "joint-outliers": ["outliers at joints", "≤"],
-    "joint-worst-step": ["worst step at joints", "≤"],
+    "seam-roughness": ["roughness at seams", "≤"],
+    "seam-outliers": ["outliers at seams", "≤"],
+    "seam-worst-step": ["worst step at seams", "≤"],
     delay: ["delay, samples", "±"],
     "vibration-gain": ["gain of vibration", "1 ±"],
   };

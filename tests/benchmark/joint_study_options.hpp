@@ -34,8 +34,8 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("final_iterations", options.final_iterations);
   set("shrinkage", options.shrinkage);
   set("bandwidth_cycles", options.bandwidth_cycles);
-  set("line_prominence", options.line_prominence);
-  set("line_pole", options.line_pole);
+  set("tone_prominence", options.tone_prominence);
+  set("tone_pole", options.tone_pole);
   set("prune_gain", options.prune_gain);
   set("pole_factor", options.pole_factor);
   set("level_pole", options.level_pole);

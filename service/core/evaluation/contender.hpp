@@ -17,7 +17,7 @@ struct SampleRange {
 };
 
 /// Where an estimate is put together from pieces: the first sample of each piece is n with n mod period = first.
-struct JointPattern {
+struct SeamPattern {
   std::size_t period = 0;  ///< above 0
   std::size_t first = 0;
 };
@@ -31,7 +31,7 @@ struct Contender {
   std::vector<double> estimate;
   /// The standard deviation that the estimator itself claims for each estimate; nothing: it claims none.
   std::optional<std::vector<double>> std;
-  std::optional<JointPattern> joints;
+  std::optional<SeamPattern> seams;
 };
 
 /// An estimator that can be run on any record: guards run it on records with a swing added, turns on records of their own.

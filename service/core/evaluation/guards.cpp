@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/evaluation/joints.hpp"
+#include "core/evaluation/seams.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -18,9 +18,9 @@ constexpr double kVibrationHz = 27.0;
 /// Of the jackknife's batches: longer than the memory of what estimators miss of slow motion.
 constexpr std::size_t kBatchSeconds = 10;
 
-constexpr std::array<std::string_view, 9> kNames = {"mean-preserved",   "slow-turn-gain",  "swing-gain",
-                                                    "scale-factor",     "joint-roughness", "joint-outliers",
-                                                    "joint-worst-step", "delay",           "vibration-gain"};
+constexpr std::array<std::string_view, 9> kNames = {"mean-preserved",  "slow-turn-gain", "swing-gain",
+                                                    "scale-factor",    "seam-roughness", "seam-outliers",
+                                                    "seam-worst-step", "delay",          "vibration-gain"};
 
 Guard not_applicable(GuardKind kind, double limit, std::string reason) {
   return {kind, Verdict::kNotApplicable, std::nullopt, std::nullopt, limit, std::move(reason)};
@@ -107,31 +107,31 @@ Guard scale_factor(const Contender& plain, const GuardCase& on, double limit) {
 }
 
 /// A method may add to the squares of second differences, in parts of what they are elsewhere, limit^2 - 1; where the truth happens to be rougher
-/// at joints, as taps that fall there make it, it is not the method's.
-double added_roughness(const JointFigures& figures, double limit) noexcept {
+/// at seams, as taps that fall there make it, it is not the method's.
+double added_roughness(const SeamFigures& figures, double limit) noexcept {
   const double own = std::max(figures.roughness_of_truth, 1.0);
   return std::sqrt(own * own + limit * limit - 1.0);
 }
 
-void joint_guards(const Contender& plain, const GuardCase& on, const GuardLimits& limits,
-                  std::vector<Guard>& all) {
-  const auto figures = joint_figures(plain, on.truth_dps, on.range);
+void seam_guards(const Contender& plain, const GuardCase& on, const GuardLimits& limits,
+                 std::vector<Guard>& all) {
+  const auto figures = seam_figures(plain, on.truth_dps, on.range);
   if (!figures) {
-    const std::string reason = plain.joints ? "too few joints among the judged samples" : "it has no joints";
-    all.push_back(not_applicable(GuardKind::kJointRoughness, limits.roughness, reason));
-    all.push_back(not_applicable(GuardKind::kJointOutliers, 0.05, reason));
-    all.push_back(not_applicable(GuardKind::kJointWorstStep, limits.worst_step, reason));
+    const std::string reason = plain.seams ? "too few seams among the judged samples" : "it has no seams";
+    all.push_back(not_applicable(GuardKind::kSeamRoughness, limits.roughness, reason));
+    all.push_back(not_applicable(GuardKind::kSeamOutliers, 0.05, reason));
+    all.push_back(not_applicable(GuardKind::kSeamWorstStep, limits.worst_step, reason));
     return;
   }
   const double share_limit = 0.05 + 3.0 * figures->outlier_standard_error;
   const double roughness_limit =
       std::max(added_roughness(*figures, limits.roughness), figures->roughness_beside);
   const double step_limit = std::max(limits.worst_step, figures->worst_step_by_chance);
-  all.push_back({GuardKind::kJointRoughness, verdict(figures->roughness <= roughness_limit),
+  all.push_back({GuardKind::kSeamRoughness, verdict(figures->roughness <= roughness_limit),
                  figures->roughness, std::nullopt, roughness_limit, ""});
-  all.push_back({GuardKind::kJointOutliers, verdict(figures->outlier_share <= share_limit),
+  all.push_back({GuardKind::kSeamOutliers, verdict(figures->outlier_share <= share_limit),
                  figures->outlier_share, figures->outlier_standard_error, share_limit, ""});
-  all.push_back({GuardKind::kJointWorstStep, verdict(figures->worst_step <= step_limit), figures->worst_step,
+  all.push_back({GuardKind::kSeamWorstStep, verdict(figures->worst_step <= step_limit), figures->worst_step,
                  std::nullopt, step_limit, ""});
 }
 
@@ -175,7 +175,7 @@ std::vector<Guard> guards(const Method& method, const Contender& plain, const Gu
   all.push_back(gain_guard(method, plain, on, {GuardKind::kSlowTurnGain, 0.1, kSwingDps, limits.slow_turn}));
   all.push_back(gain_guard(method, plain, on, {GuardKind::kSwingGain, 1.0, kSwingDps, limits.swing}));
   all.push_back(scale_factor(plain, on, limits.scale_factor));
-  joint_guards(plain, on, limits, all);
+  seam_guards(plain, on, limits, all);
   all.push_back(delay_guard(plain, on, limits.delay_samples));
   all.push_back(gain_guard(method, plain, on,
                            {GuardKind::kVibrationGain, vibration_hz, kVibrationDps, limits.vibration}));

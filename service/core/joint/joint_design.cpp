@@ -61,7 +61,7 @@ void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
 BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
   BlockSet set;
   for (const SpectralMode& mode : modes.modes()) {
-    const double harder = mode.slow || mode.line ? 1.0 : drive_ratio;
+    const double harder = mode.slow || mode.tone ? 1.0 : drive_ratio;
     FilterBlock block{.order = kModeOrder, .drive = mode.drive * harder, .signal = mode.share};
     if (mode.share > 0.0 && mode.share < 1.0)
       block.apart = mode.share * (1.0 - mode.share) * harder * whittle_.weigh(mode).power;

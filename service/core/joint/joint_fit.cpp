@@ -71,7 +71,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   if (!is_usable(noise_)) return;
   for (const NoiseLine& line : lines()) notch(centred_, line.cycles, line.half_width);
   decompose(report);
-  start_line(tone);
+  start_tone(tone);
   fit_modes();
   follow_lines(model.lines, window.size());
   model.mean = report.mean;
@@ -131,10 +131,10 @@ void JointFit::take_lines(LineTrackers& trackers, std::span<const SpectralLine> 
 
 /// The tone that stands out most, of the noise where that has lines of its own.
 Tone JointFit::find_motion_tone() noexcept {
-  if (line_count_ == 0) return find_tone(periodogram_, options_.line_prominence);
+  if (line_count_ == 0) return find_tone(periodogram_, options_.tone_prominence);
   const auto noise = whittle_.noise();
   for (std::size_t k = 0; k < noise.size(); ++k) whitened_[k] = periodogram_[k] / noise[k];
-  Tone tone = find_tone(whitened_, options_.line_prominence);
+  Tone tone = find_tone(whitened_, options_.tone_prominence);
   const double bin = 2.0 * tone.frequency_cycles * static_cast<double>(noise.size() - 1);
   tone.amplitude *= std::sqrt(noise[static_cast<std::size_t>(std::lround(bin))]);
   return tone;
@@ -191,16 +191,16 @@ void JointFit::start_mode(std::span<const double> imf, const ImfFigures& figures
 }
 
 /// An IMF holds a tone together with much else, and its mode is too wide for it: the tone gets one of its own.
-void JointFit::start_line(const Tone& tone) noexcept {
+void JointFit::start_tone(const Tone& tone) noexcept {
   if (!(tone.amplitude > 0.0) || full_.full()) return;
   std::array<double, kModeOrder + 1> r{};
   double power = tone.amplitude * tone.amplitude / 2.0;
   for (std::size_t lag = 0; lag < r.size(); ++lag) {
     r[lag] = power * portable_sine_cosine(tone.frequency_cycles * static_cast<double>(lag)).cosine;
-    power *= options_.line_pole;
+    power *= options_.tone_pole;
   }
   SpectralMode mode = whittle_.mode_of(r, false);
-  mode.line = true;
+  mode.tone = true;
   if (mode.drive > 0.0) full_.add(mode);
 }
 

@@ -60,7 +60,7 @@ class JointFit {
   void decompose(WindowReport& report) noexcept;
   void describe(std::span<const double> imf, WindowReport& report) const noexcept;
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
-  void start_line(const Tone& tone) noexcept;
+  void start_tone(const Tone& tone) noexcept;
   void fit_modes() noexcept;
   [[nodiscard]] double prior_of_full() noexcept;
   void design(JointModel& model) noexcept;

@@ -63,9 +63,9 @@ struct JointOptions {
   double bandwidth_cycles = 0.001;
   /// How far a narrow tone must stand out to get a mode of its own: white noise shows such a one in 0.5 % of windows, and the fit finds
   /// how much there is of it. Range 1..1e12.
-  double line_prominence = 12.0;
+  double tone_prominence = 12.0;
   /// Radius of the poles that this mode starts with: much less than a window can tell, so that the fit finds the width. Range 0..1.
-  double line_pole = 0.999;
+  double tone_pole = 0.999;
   /// A mode is kept by pruning where it buys at least this much of twice the log-likelihood. Range 0..1e4.
   double prune_gain = 20.0;
   /// Roots of every mode are pulled in by this factor, so that the filter forgets. Range 0.9..1.

@@ -17,7 +17,7 @@ struct SpectralMode {
       0.0;  ///< of what it was made of, unit^2: what its spectrum holds in all; 0 where that is not known
   bool slow = false;  ///< stands for all that is slower than T_slow
   /// Stands for a narrow tone: its drive says how fast it changes, which no member doubts.
-  bool line = false;
+  bool tone = false;
   /// How much of its variance is motion, 0..1; the rest is a line of the noise, or above the signal band.
   double share = 1.0;
 };

@@ -195,9 +195,9 @@ void WhittleFit::bound_slowest_bin(const ModeSet& modes) noexcept {
 void WhittleFit::maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept {
   std::array<double, kLags> r{};
   kernel_->autocovariances(bins_, spectrum.data(), deviation_.data(), weights_.data(), r.data());
-  const bool line = mode.line;
+  const bool tone = mode.tone;
   mode = mode_of(r, mode.slow);
-  mode.line = line;
+  mode.tone = tone;
   if (!mode.slow) mode.drive *= kept_;
 }
 

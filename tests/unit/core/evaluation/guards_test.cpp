@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/evaluation/joints.hpp"
 #include "core/evaluation/rivals.hpp"
+#include "core/evaluation/seams.hpp"
 #include "core/evaluation/statistics.hpp"
 #include "evaluation_support.hpp"
 
@@ -32,7 +32,7 @@ Method method_with(const Change& defect, std::size_t lag = 16) {
     contender.name = "test";
     contender.lag_samples = lag;
     contender.estimate = rival_estimate({Rival::kZeroPhase2, 0.45}, noisy);
-    contender.joints = JointPattern{32, 16};
+    contender.seams = SeamPattern{32, 16};
     defect(contender.estimate);
     return contender;
   };
@@ -105,36 +105,36 @@ TEST(Guards, FailOneThatMovesTheMean) {
   EXPECT_NEAR(*guard.value, 0.02 / 0.0023, 2.0);
 }
 
-TEST(Guards, FailOneWithStepsAtItsJoints) {
+TEST(Guards, FailOneWithStepsAtItsSeams) {
   const Change steps = [](std::vector<double>& x) {
     for (std::size_t t = 0; t < x.size(); ++t) x[t] += (t + 16) / 32 % 2 == 0 ? 1.0 : -1.0;
   };
-  EXPECT_EQ(guard_of(GuardKind::kJointRoughness, steps).verdict, Verdict::kFail);
-  EXPECT_EQ(guard_of(GuardKind::kJointOutliers, steps).verdict, Verdict::kFail);
-  EXPECT_EQ(guard_of(GuardKind::kJointWorstStep, steps).verdict, Verdict::kFail);
+  EXPECT_EQ(guard_of(GuardKind::kSeamRoughness, steps).verdict, Verdict::kFail);
+  EXPECT_EQ(guard_of(GuardKind::kSeamOutliers, steps).verdict, Verdict::kFail);
+  EXPECT_EQ(guard_of(GuardKind::kSeamWorstStep, steps).verdict, Verdict::kFail);
 }
 
-TEST(Guards, DoNotTakeKnocksForJoints) {
-  // Twelve knocks, each at this place of its hop; joints are at 16.
+TEST(Guards, DoNotTakeKnocksForSeams) {
+  // Twelve knocks, each at this place of its hop; seams are at 16.
   const auto knocks_at = [](const std::array<std::size_t, 12>& places) {
     return [places](std::vector<double>& x) {
       for (std::size_t k = 0; k < places.size(); ++k) x[32 * (30 + 40 * k) + places[k]] += 20.0;
     };
   };
   const Guard chance =
-      guard_of(GuardKind::kJointRoughness, knocks_at({16, 16, 22, 22, 22, 3, 5, 8, 11, 26, 29, 31}));
+      guard_of(GuardKind::kSeamRoughness, knocks_at({16, 16, 22, 22, 22, 3, 5, 8, 11, 26, 29, 31}));
   EXPECT_GT(*chance.value, 1.2);
   EXPECT_EQ(chance.verdict, Verdict::kPass) << "elsewhere there are more in one place";
   const Guard more =
-      guard_of(GuardKind::kJointRoughness, knocks_at({16, 16, 16, 22, 22, 1, 3, 5, 8, 26, 29, 31}));
+      guard_of(GuardKind::kSeamRoughness, knocks_at({16, 16, 16, 22, 22, 1, 3, 5, 8, 26, 29, 31}));
   EXPECT_EQ(more.verdict, Verdict::kFail) << "nowhere else are so many";
 }
 
-TEST(Guards, FailOneWithASingleLargeStepAtAJoint) {
+TEST(Guards, FailOneWithASingleLargeStepAtASeam) {
   const Change step = [](std::vector<double>& x) {
     for (std::size_t t = 32 * 200 + 16; t < x.size(); ++t) x[t] += 5.0;
   };
-  EXPECT_EQ(guard_of(GuardKind::kJointWorstStep, step).verdict, Verdict::kFail);
+  EXPECT_EQ(guard_of(GuardKind::kSeamWorstStep, step).verdict, Verdict::kFail);
 }
 
 // Taps of the motion that fall where windows meet. Knocks of 20 have squared second differences of 6 * 400 in all.
@@ -151,7 +151,7 @@ TEST(Guards, DoNotTakeTheRoughnessOfTheMotionForTheMethods) {
     plain.estimate = drive.noisy;
     defect(plain.estimate);
     const auto all = guards(method, plain, drive.guard_case());
-    return *std::ranges::find(all, GuardKind::kJointRoughness, &Guard::kind);
+    return *std::ranges::find(all, GuardKind::kSeamRoughness, &Guard::kind);
   };
   Drive drive;
   tapped(drive.truth);
@@ -163,16 +163,16 @@ TEST(Guards, DoNotTakeTheRoughnessOfTheMotionForTheMethods) {
   EXPECT_EQ(roughness(Drive(), stepped).verdict, Verdict::kFail);
 }
 
-// Steps of 1, 2 and 4 beside the joints: their logarithms are ln 2 on average, with a standard deviation of sqrt(2/3) ln 2.
-TEST(Guards, ExpectOfTheLargestStepAtAJointWhatOtherPlacesShow) {
+// Steps of 1, 2 and 4 beside the seams: their logarithms are ln 2 on average, with a standard deviation of sqrt(2/3) ln 2.
+TEST(Guards, ExpectOfTheLargestStepAtASeamWhatOtherPlacesShow) {
   Contender contender;
-  contender.joints = JointPattern{4, 0};
+  contender.seams = SeamPattern{4, 0};
   contender.estimate.assign(401, 0.0);
   for (std::size_t t = 1; t < contender.estimate.size(); ++t) {
     const double sign = t / 4 % 2 == 0 ? 1.0 : -1.0;
     contender.estimate[t] = contender.estimate[t - 1] + sign * std::array{0.5, 1.0, 2.0, 4.0}[t % 4];
   }
-  const auto figures = joint_figures(contender, contender.estimate, {0, 401});
+  const auto figures = seam_figures(contender, contender.estimate, {0, 401});
   ASSERT_TRUE(figures);
   const double ordinary = std::sqrt((1.0 + 4.0 + 16.0) / 3.0);
   EXPECT_NEAR(figures->worst_step, 0.5 / ordinary, 1e-9);
@@ -190,7 +190,7 @@ TEST(Guards, SayWhyTheyDoNotApply) {
   const Drive drive;
   Method method = method_with(none);
   Contender plain = method.run(drive.noisy);
-  plain.joints.reset();
+  plain.seams.reset();
   GuardCase on = drive.guard_case();
   on.range = {500, 900};  // 4 s
   for (const Guard& guard : guards(method, plain, on)) {
@@ -198,7 +198,7 @@ TEST(Guards, SayWhyTheyDoNotApply) {
       EXPECT_FALSE(guard.reason.empty());
     }
     const bool long_one = guard.kind == GuardKind::kSlowTurnGain || guard.kind == GuardKind::kScaleFactor ||
-                          guard.kind == GuardKind::kJointRoughness;
+                          guard.kind == GuardKind::kSeamRoughness;
     if (long_one) {
       EXPECT_EQ(guard.verdict, Verdict::kNotApplicable) << name_of(guard.kind);
     }

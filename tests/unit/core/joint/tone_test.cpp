@@ -68,7 +68,7 @@ TEST(FindTone, SeesNoneInWhiteNoise) {
   for (unsigned seed = 1; seed <= 1000; ++seed) {
     const auto x = testing::white_noise(kWindow, seed);
     EXPECT_EQ(found_in(x).amplitude, 0.0) << "seed " << seed;
-    if (found_in(x, JointOptions{}.line_prominence).amplitude > 0.0) ++likely;
+    if (found_in(x, JointOptions{}.tone_prominence).amplitude > 0.0) ++likely;
   }
   EXPECT_LE(likely, 20);
 }

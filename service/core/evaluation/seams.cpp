@@ -1,4 +1,4 @@
-#include "core/evaluation/joints.hpp"
+#include "core/evaluation/seams.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::size_t kFewest = 10;
 
-/// Sizes of differences, at joints and elsewhere.
+/// Sizes of differences, at seams and elsewhere.
 struct Sorted {
   std::vector<double> at;
   std::vector<double> elsewhere;
 
-  void add(bool joint, double value) {
-    if (std::isfinite(value)) (joint ? at : elsewhere).push_back(std::abs(value));
+  void add(bool seam, double value) {
+    if (std::isfinite(value)) (seam ? at : elsewhere).push_back(std::abs(value));
   }
 };
 
@@ -25,7 +25,7 @@ double rms(const std::vector<double>& x) noexcept {
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
-/// Sums of squares by the place in the period; a joint at place p lies in the second differences about p and p - 1.
+/// Sums of squares by the place in the period; a seam at place p lies in the second differences about p and p - 1.
 class Roughness {
  public:
   explicit Roughness(std::size_t period) : squares_(period), counts_(period) {}
@@ -39,7 +39,7 @@ class Roughness {
     count_ += 1.0;
   }
 
-  /// @return rms at joints at this place / rms elsewhere; 0 where that says nothing
+  /// @return rms at seams at this place / rms elsewhere; 0 where that says nothing
   [[nodiscard]] double at(std::size_t place) const noexcept {
     const std::size_t before = (place + squares_.size() - 1) % squares_.size();
     const double squares = squares_[place] + squares_[before];
@@ -111,10 +111,10 @@ double quantile_95(std::vector<double> x) {
 
 }  // namespace
 
-std::optional<JointFigures> joint_figures(const Contender& contender, std::span<const double> truth,
-                                          SampleRange range) {
-  if (!contender.joints || contender.joints->period == 0) return std::nullopt;
-  const auto [period, first] = *contender.joints;
+std::optional<SeamFigures> seam_figures(const Contender& contender, std::span<const double> truth,
+                                        SampleRange range) {
+  if (!contender.seams || contender.seams->period == 0) return std::nullopt;
+  const auto [period, first] = *contender.seams;
   const auto is_first = [period = period, first = first](std::size_t t) {
     return t % period == first % period;
   };
@@ -138,12 +138,12 @@ std::optional<JointFigures> joint_figures(const Contender& contender, std::span<
   const double limit = quantile_95(bends.elsewhere);
   const double beyond =
       static_cast<double>(std::ranges::count_if(bends.at, [limit](double bend) { return bend > limit; }));
-  JointFigures figures;
+  SeamFigures figures;
   figures.roughness = roughness.at(first % period);
   figures.roughness_of_truth = of_truth.at(first % period);
   figures.roughness_beside = roughness.largest_beside(first % period);
   figures.outlier_share = beyond / static_cast<double>(bends.at.size());
-  // Two second differences belong to one joint: they are not independent.
+  // Two second differences belong to one seam: they are not independent.
   figures.outlier_standard_error = std::sqrt(0.05 * 0.95 / static_cast<double>(steps.at.size()));
   const double ordinary = rms(steps.elsewhere);
   figures.worst_step = largest.at(first % period) / ordinary;
