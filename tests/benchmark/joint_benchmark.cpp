@@ -49,9 +49,9 @@ std::span<const double> window(std::size_t index) {
   return std::span(drive()).subspan(index % kWindows * kWindow, kWindow);
 }
 
-enum class Colour : std::uint8_t { kWhite, kAr8, kLine };
+enum class Colour : std::uint8_t { kWhite, kAr8, kLine, kThreeLines };
 
-/// White noise of the drive's level, or a half of it coloured by an AR(8), as calibrations give it, or a line of that power.
+/// White noise of the drive's level, or a half of it coloured by an AR(8), as calibrations give it, with a line or three of an eighth of its power.
 NoiseModel noise(Colour colour) {
   double squares = 0.0;
   for (std::size_t t = 2; t < kWindow; ++t) {
@@ -61,15 +61,13 @@ NoiseModel noise(Colour colour) {
   NoiseModel model = core::white_noise(squares);
   if (colour == Colour::kWhite) return model;
   model.white_variance = 0.5 * squares;
-  if (colour == Colour::kLine) {
-    model.colour_variance = 0.01 * squares;
-    model.colour_order = 2;
-    model.colour = {0.6, -0.94};
-    return model;
-  }
   model.colour_variance = 0.4 * squares;
   model.colour_order = 8;
   model.colour = {0.25, 0.15, 0.05, 0.05, 0.02, 0.02, 0.01, 0.01};
+  constexpr std::array<double, core::kMaxNoiseLines> kCycles{0.2, 0.31, 0.42};
+  model.line_count = colour == Colour::kAr8 ? 0 : colour == Colour::kLine ? 1 : kCycles.size();
+  for (std::size_t i = 0; i < model.line_count; ++i)
+    model.line[i] = {.cycles = kCycles[i], .half_width = 0.003, .variance = 0.125 * squares};
   return model;
 }
 
@@ -81,9 +79,9 @@ JointModel fitted(std::size_t index, Colour colour) {
   return model;
 }
 
-/// Arguments: members in use, lag.
+/// Arguments: members in use, lag, the noise's colour, as Colour has it.
 void step(benchmark::State& state) {
-  JointModel model = fitted(0, Colour::kAr8);
+  JointModel model = fitted(0, static_cast<Colour>(state.range(2)));
   for (auto i = static_cast<std::size_t>(state.range(0)); i < core::kMembers; ++i)
     model.members[i].usable = false;
   KalmanBank bank({}, static_cast<std::size_t>(state.range(1)));
@@ -95,7 +93,10 @@ void step(benchmark::State& state) {
   }
   state.counters["states"] = static_cast<double>(model.members[0].states);
 }
-BENCHMARK(step)->ArgsProduct({{4, 6, 7}, {0, 16, 32}})->Unit(benchmark::kNanosecond);
+BENCHMARK(step)
+    ->ArgsProduct({{4, 6, 7}, {0, 16, 32}, {1}})
+    ->ArgsProduct({{7}, {0, 16, 32}, {2, 3}})
+    ->Unit(benchmark::kNanosecond);
 
 void hand_over(benchmark::State& state) {
   const JointModel model = fitted(0, Colour::kAr8);
@@ -105,19 +106,26 @@ void hand_over(benchmark::State& state) {
 }
 BENCHMARK(hand_over)->Unit(benchmark::kMicrosecond);
 
-/// The slow loop: one window of one axis. Argument: the noise's colour, as Colour has it.
+/// The slow loop: one window of one axis. Arguments: the noise's colour, as Colour has it; doublings of the window, as fast sensors have them.
 void fit_window(benchmark::State& state) {
   const NoiseModel colours = noise(static_cast<Colour>(state.range(0)));
-  JointFit fit(kWindow);
+  const std::size_t samples = kWindow << state.range(1);
+  JointFit fit(samples);
   JointModel model;
   core::WindowReport report;
-  std::size_t index = 0;
-  for ([[maybe_unused]] auto _ : state) fit.fit(window(index++), colours, model, report);
+  std::size_t from = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    fit.fit(std::span(drive()).subspan(from, samples), colours, model, report);
+    from = (from + samples) % drive().size();
+  }
   constexpr double kHopsPerSecond = 100.0 / 32.0;
   state.counters["axes_at_100_Hz"] = benchmark::Counter(
       static_cast<double>(state.iterations()) / kHopsPerSecond, benchmark::Counter::kIsRate);
 }
-BENCHMARK(fit_window)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+BENCHMARK(fit_window)
+    ->ArgsProduct({{0, 1, 2, 3}, {0}})
+    ->ArgsProduct({{1}, {1, 2}})
+    ->Unit(benchmark::kMicrosecond);
 
 /// Level and tilt of noise of which no colour is believed. The bands are those of a road that shakes the slow ones.
 void part_noise_shape(benchmark::State& state) {
