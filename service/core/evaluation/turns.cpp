@@ -51,7 +51,9 @@ std::optional<double> crossing_error(const Responses& responses, double crossing
   for (const auto& run : responses.runs) heights.push_back(run[t]);
   const auto height = batch_mean(heights, 1);
   if (!height) return std::nullopt;
-  return height->standard_error / (responses.mean[t] - responses.mean[t - 1]);
+  const double slope = responses.mean[t] - responses.mean[t - 1];
+  if (!(slope > 0.0)) return std::nullopt;
+  return height->standard_error / slope;
 }
 
 void measure(const Responses& responses, std::span<const double> truth, const TurnProfile& profile,
