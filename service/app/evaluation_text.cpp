@@ -61,8 +61,8 @@ std::string joined(const std::vector<std::string>& words) {
 std::string longer_windows(const stream::EngineOptions& engine, double rate_hz) {
   const unsigned doublings = stream::doublings_at(engine, rate_hz);
   if (doublings == 0) return "";
-  return " (joint and realtime at this rate: " + std::to_string(engine.window_samples << doublings) + ", " +
-         std::to_string(engine.hop_samples << stream::hop_doublings(doublings)) + ")";
+  return " (joint and realtime at this rate: up to " + std::to_string(engine.window_samples << doublings) +
+         ", " + std::to_string(engine.hop_samples << stream::hop_doublings(doublings)) + ")";
 }
 
 /// What was run on what, so that it can be run again.

@@ -52,7 +52,7 @@ class SlowLoop {
         window_->end - window_->begin >= static_cast<stream::Position>(core::JointFit::kMinSamples))
       made = fit(noisy);
     if (schedule_.doublings() < run_.doublings && schedule_.can_double(position)) {
-      schedule_.double_windows();
+      schedule_.double_windows(position);
       prepare_fit();
     }
     window_ = schedule_.take(position);

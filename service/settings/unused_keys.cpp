@@ -15,8 +15,8 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 5> kOfPaper = {"denoise.scheme", "denoise.screening", "denoise.sifts",
                                                       "denoise.boundary", "denoise.max_ar_order"};
-constexpr std::array<std::string_view, 3> kOfJoint = {"denoise.max_signal_hz", "bus.topics.realtime",
-                                                      "bus.topics.realtime_batch"};
+constexpr std::array<std::string_view, 4> kOfJoint = {"denoise.max_signal_hz", "denoise.stretch_windows",
+                                                      "bus.topics.realtime", "bus.topics.realtime_batch"};
 
 }  // namespace
 

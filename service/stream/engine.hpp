@@ -47,13 +47,13 @@ class Sink {
 };
 
 struct EngineOptions {
-  /// Samples of a full window. 64..65536.
+  /// Samples of a full window, before it is stretched. 64..65536.
   std::size_t window_samples = 1024;
   /// Samples between windows. 1..window_samples/2.
   std::size_t hop_samples = 32;
   /// Widest hop under overload, samples; hop_samples..window_samples/2.
   std::size_t max_hop_samples = 256;
-  /// Model methods: windows of fast sensors are longer than that, as doublings_at() says, and further apart (hop_doublings()).
+  /// Model methods: windows of fast sensors are longer than that, as doublings_at() says, and all hops, too, as hop_doublings() says.
   bool stretch_windows = true;
   /// Look-ahead of a released sample, samples. 0..window_samples/4; of a model method at most kMaxModelLagSamples.
   std::size_t lag_samples = 16;
@@ -114,7 +114,8 @@ class Engine {
 
   /// Takes samples of one sensor, oldest first. Opens a channel for a new sensor. Refuses bad samples, each
   /// counted under one reason. Waits while the sensor's windows wait for a worker (backpressure), at most
-  /// until overload is declared. Does not allocate once the channel is open.
+  /// until overload is declared. Does not allocate once the channel is open, but where windows of a model method double: kMostDoublings
+  /// times a channel at the most.
   /// @return samples that will leave; the rest was refused, or has left before (EngineOptions::published_before)
   std::size_t push(std::string_view sensor, std::span<const Sample> samples) noexcept;
 

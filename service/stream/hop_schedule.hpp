@@ -53,8 +53,8 @@ struct WindowJob {
 
 /// Cuts a channel's positions into windows. A window of at most window() positions ends every step() positions
 /// of a segment (an unbroken stretch); it releases what has not been released up to `lag` before its end.
-/// Closing a segment releases the rest. Depends on positions alone, never on time, except for widen(), which
-/// is overload step 1.
+/// Closing a segment releases the rest. Depends on positions alone, and on how long windows are to be; never on time, except for widen(),
+/// which is overload step 1.
 class HopSchedule {
  public:
   struct Options {
@@ -80,10 +80,14 @@ class HopSchedule {
   /// True where windows can double: this one is full, and a whole number of the next steps lies in the segment before `end`.
   [[nodiscard]] bool can_double(Position end) const noexcept {
     const Position length = end - segment_begin_;
-    return length >= window() && length % (options_.hop << hop_doublings(doublings_ + 1)) == 0;
+    return end - window_floor_ >= window() && length % (options_.hop << hop_doublings(doublings_ + 1)) == 0;
   }
-  /// Windows from here on are twice as long, until the segment closes. @pre can_double(end); before take(end)
-  void double_windows() noexcept { set_doublings(doublings_ + 1); }
+  /// Windows may be twice as long from here on. They grow by what comes: nothing older than this window is looked at any more, as nobody has
+  /// kept it. @pre can_double(end); before take(end)
+  void double_windows(Position end) noexcept {
+    window_floor_ = std::max(window_floor_, end - window());
+    set_doublings(doublings_ + 1);
+  }
   /// Windows are doubled so many times only. @pre at_boundary(end), doublings <= doublings(); before take(end)
   void shorten_windows(unsigned doublings, Position end) noexcept {
     set_doublings(doublings);
@@ -110,7 +114,7 @@ class HopSchedule {
     if (end - last_end_ >= step()) flags |= static_cast<std::uint32_t>(SampleFlag::kHopWidened);
     WindowJob last = job(end, end, flags);
     if (last.release_begin == end) last.begin = end;
-    segment_begin_ = last_end_ = released_ = end;
+    segment_begin_ = window_floor_ = last_end_ = released_ = end;
     set_doublings(0);
     ++segment_;
     return last;
@@ -132,7 +136,7 @@ class HopSchedule {
   [[nodiscard]] std::uint64_t segment() const noexcept { return segment_; }
   /// Oldest position that the next window can need.
   [[nodiscard]] Position oldest_needed(Position end) const noexcept {
-    return std::max(segment_begin_, end - window());
+    return std::max(window_floor_, end - window());
   }
 
  private:
@@ -145,7 +149,7 @@ class HopSchedule {
 
   [[nodiscard]] WindowJob job(Position end, Position release_end, std::uint32_t flags) noexcept {
     WindowJob made;
-    made.begin = std::max(segment_begin_, end - window());
+    made.begin = oldest_needed(end);
     made.end = end;
     made.release_begin = released_;
     made.release_end = release_end;
@@ -161,6 +165,7 @@ class HopSchedule {
   unsigned doublings_ = 0;
   Position hop_;
   Position segment_begin_ = 0;
+  Position window_floor_ = 0;  ///< no window reaches back beyond it
   Position last_end_ = 0;
   Position released_ = 0;
   std::uint64_t segment_ = 0;

@@ -8,6 +8,10 @@
 namespace gyrod::stream {
 namespace {
 
+/// Windows stay as long as they are down to this part of the rate that made them so: the mean of 64 intervals of stamps that come in bursts is
+/// off by a burst.
+constexpr double kAsFast = 0.8;
+
 std::uint32_t bit(SampleFlag flag) { return static_cast<std::uint32_t>(flag); }
 
 /// The sample as it leaves, with what the models in use know.
@@ -83,16 +87,18 @@ bool Engine::Impl::models_are_late(const Channel& channel) const {
 /// At a hop's end whose window is due, the models of the one before having been taken over: nobody works on the channel.
 void Engine::Impl::follow_rate(Channel& channel) {
   HopSchedule& schedule = channel.schedule;
-  const unsigned wanted = doublings_at(options_, channel.gate.rate_hz());
-  if (wanted < schedule.doublings()) {
-    schedule.shorten_windows(wanted, channel.ring.end());
-  } else if (wanted > schedule.doublings() && schedule.can_double(channel.ring.end()) &&
-             make_room(channel, schedule.doublings() + 1)) {
-    schedule.double_windows();
+  const Position end = channel.ring.end();
+  const double rate_hz = channel.gate.rate_hz();
+  const unsigned most = doublings_at(options_, rate_hz / kAsFast);
+  if (doublings_at(options_, rate_hz) > schedule.doublings()) {
+    if (schedule.can_double(end) && make_room(channel, schedule.doublings() + 1))
+      schedule.double_windows(end);
+  } else if (most < schedule.doublings()) {
+    schedule.shorten_windows(most, end);
   }
 }
 
-/// The only memory that push() takes for a channel that is open, once for each of its doublings.
+/// The only memory that push() takes for a channel that is open, once for each doubling: the channel's, and the first time that of all benches.
 /// @return false where there is none: windows stay as they are
 bool Engine::Impl::make_room(Channel& channel, unsigned doublings) {
   try {

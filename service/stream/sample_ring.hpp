@@ -26,7 +26,7 @@ class SampleRing {
     for (auto& axis : rates_) axis.resize(capacity);
   }
 
-  /// Makes room for more positions; those that it holds stay. @pre nobody else reads @throws std::bad_alloc, as it was before
+  /// Makes room for more positions; those that it holds stay, and older ones are lost. @pre nobody else reads @throws std::bad_alloc, as it was before
   void grow(std::size_t capacity) {
     if (capacity <= this->capacity()) return;
     SampleRing larger(capacity);

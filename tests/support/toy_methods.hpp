@@ -25,6 +25,7 @@ class WindowMarker final : public stream::WindowMethod {
     const auto size = static_cast<double>(window.samples.size());
     report = {};
     report.window_samples = window.samples.size();
+    report.tone_amplitude = window.samples.front();
     report.mean = sum / size;
     report.noise_floor = std::sqrt(window.noise.white_variance);
     report.output_noise = 0.5 * size;
@@ -96,6 +97,7 @@ class LastSampleMethod final : public stream::ModelMethod {
     report = {};
     report.noise_floor = window.samples.back();
     report.window_samples = window.samples.size();
+    report.tone_amplitude = window.samples.front();
     auto& state = static_cast<LastSampleModel&>(model);
     state.last = window.samples.back();
     report.modes = ++state.windows;

@@ -32,6 +32,13 @@ TEST(UnusedKeys, AKeyOfTheOtherMethodIsNamedWithItsValueAndBothMethods) {
       ElementsAre(R"(denoise.max_signal_hz is 5.0, which is for denoise.method "joint"; it is "paper")"));
 }
 
+TEST(UnusedKeys, WindowsThatAreNotToFollowTheRateAreOfMethodJoint) {
+  EXPECT_THAT(
+      unused(R"({"denoise": {"method": "paper", "stretch_windows": false}})"),
+      ElementsAre(R"(denoise.stretch_windows is false, which is for denoise.method "joint"; it is "paper")"));
+  EXPECT_THAT(unused(R"({"denoise": {"stretch_windows": false}})"), IsEmpty());
+}
+
 TEST(UnusedKeys, ASignalBandThatReachesHalfTheSampleRateIs) {
   EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 60, "sample_rate_hz": 100}})"),
               ElementsAre("denoise.max_signal_hz is 60.0; at a denoise.sample_rate_hz of 100.0 there is "

@@ -70,11 +70,47 @@ TEST(EngineWithModels, WindowsAreShortAgainWhereTheSensorHasBecomeSlow) {
   engine.push("imu", samples);
   for (const Sample& slow : counting_samples(512, 1024)) {
     Sample next = slow;
-    next.stamp_ns = samples.back().stamp_ns + static_cast<std::int64_t>(slow.sequence - 1023) * 5'000'000;
+    next.stamp_ns =
+        samples.back().stamp_ns + static_cast<std::int64_t>(slow.sequence - 1023) * 6'666'667;  // 150 Hz
     engine.push("imu", {&next, 1});
   }
   EXPECT_EQ(sink.reports("imu").back().axis[0].window_samples, 128U);
   expect_conserved(engine.snapshot().totals);
+}
+
+TEST(EngineWithModels, WindowsOfASensorThatBecomesFastGrowByWhatItSends) {
+  RecordingSink sink;
+  Engine engine(small_options(0), testing::last_sample_method(), sink);
+  auto samples = counting_samples(1024);
+  for (const Sample& fast : counting_samples(1024, 1024)) {
+    samples.push_back(fast);
+    samples.back().stamp_ns =
+        samples[1023].stamp_ns + static_cast<std::int64_t>(fast.sequence - 1023) * 2'000'000;  // 500 Hz
+  }
+  engine.push("imu", samples);
+  const auto reports = sink.reports("imu");
+  EXPECT_EQ(reports.back().axis[0].window_samples, 512U);
+  for (const NoiseReport& report : reports) {
+    const auto length = static_cast<double>(report.axis[0].window_samples);
+    const auto last = static_cast<double>(report.last_sequence);
+    EXPECT_EQ(report.axis[0].tone_amplitude, last + 1.0 - length)
+        << "the first sample of the window that ends with " << last;
+  }
+}
+
+TEST(EngineWithModels, WindowsStayAsLongWhereTheRateIsAboutTheLimit) {
+  RecordingSink sink;
+  Engine engine(small_options(0), testing::last_sample_method(), sink);
+  auto samples = counting_samples(4096);
+  std::int64_t stamp_ns = 0;
+  for (Sample& sample : samples) {  // 225 Hz, and every other 128 samples 206
+    sample.stamp_ns = stamp_ns;
+    stamp_ns += sample.sequence / 128 % 2 == 0 ? 4'444'444 : 4'854'369;
+  }
+  engine.push("imu", samples);
+  std::vector<std::size_t> windows;
+  for (const NoiseReport& report : sink.reports("imu")) windows.push_back(report.axis[0].window_samples);
+  EXPECT_EQ(std::count(windows.begin() + 8, windows.end(), 256U), std::ssize(windows) - 8);
 }
 
 TEST(EngineWithModels, ADelayedWorkerChangesNoBits) {

@@ -94,7 +94,7 @@ std::vector<std::pair<Position, Position>> windows_of(HopSchedule& schedule, Pos
   std::vector<std::pair<Position, Position>> windows;
   for (Position end = 1; end <= last; ++end) {
     if (!schedule.at_boundary(end) || !schedule.due(end)) continue;
-    if (schedule.doublings() < doublings && schedule.can_double(end)) schedule.double_windows();
+    if (schedule.doublings() < doublings && schedule.can_double(end)) schedule.double_windows(end);
     const WindowJob job = schedule.take(end);
     EXPECT_EQ(job.flags & bit(SampleFlag::kHopWidened), 0U) << end;
     EXPECT_EQ(job.hop_samples, schedule.step()) << end;
@@ -137,6 +137,31 @@ TEST(HopSchedule, AWindowThatIsNoMultipleOfTheNextStepWaitsForOne) {
   EXPECT_TRUE(schedule.can_double(200));
   EXPECT_FALSE(schedule.can_double(220)) << "no whole number of hops of 40";
   EXPECT_TRUE(schedule.can_double(240));
+}
+
+TEST(HopSchedule, WindowsThatDoubleLateGrowByWhatComes) {
+  HopSchedule schedule(kOptions);
+  static_cast<void>(windows_of(schedule, 640, 0));
+  ASSERT_TRUE(schedule.can_double(672));
+  schedule.double_windows(672);
+  EXPECT_EQ(schedule.take(672).begin, 544) << "as long as it was";
+  EXPECT_EQ(schedule.oldest_needed(700), 544);
+  EXPECT_FALSE(schedule.can_double(768)) << "not full yet";
+  EXPECT_TRUE(schedule.can_double(832)) << "256 positions from 544 on, and a whole number of hops of 64";
+  EXPECT_EQ(schedule.oldest_needed(832), 576);
+}
+
+TEST(HopSchedule, AWidenedHopStaysAsManySteps) {
+  HopSchedule schedule(kOptions);
+  static_cast<void>(windows_of(schedule, 256, 1));
+  ASSERT_TRUE(schedule.widen());
+  ASSERT_TRUE(schedule.can_double(320));
+  schedule.double_windows(320);
+  EXPECT_EQ(schedule.step(), 64);
+  EXPECT_EQ(schedule.hop(), 128);
+  schedule.shorten_windows(0, 320);
+  EXPECT_EQ(schedule.hop(), 64);
+  EXPECT_TRUE(schedule.widened());
 }
 
 TEST(HopSchedule, WindowsThatAreShortenedGoOnAtOnceAndNothingHasWaited) {
