@@ -127,6 +127,15 @@ BENCHMARK(fit_window)
     ->ArgsProduct({{1}, {1, 2}})
     ->Unit(benchmark::kMicrosecond);
 
+/// Room for windows of a length, which the first sensor that needs them makes for every worker. Argument: doublings of the window.
+void make_room(benchmark::State& state) {
+  for ([[maybe_unused]] auto _ : state) {
+    JointFit fit(kWindow << state.range(0));
+    benchmark::DoNotOptimize(&fit);
+  }
+}
+BENCHMARK(make_room)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+
 /// Level and tilt of noise of which no colour is believed. The bands are those of a road that shakes the slow ones.
 void part_noise_shape(benchmark::State& state) {
   core::BandPower power{900.0, 20.0, 5.0, 2.1, 1.6, 1.4, 1.1, 0.9};
