@@ -27,12 +27,6 @@ files::Record record_of(std::span<const double> noisy_dps, double rate_hz) {
   return record;
 }
 
-/// The window ends at a multiple of the hop; what it releases begins a lag before the end of the last one.
-core::SeamPattern seams_of(const stream::EngineOptions& engine) {
-  const std::size_t hop = engine.hop_samples;
-  return {hop, (hop - engine.lag_samples % hop) % hop};
-}
-
 core::Method two_speed_method(const std::string& name, const MethodContext& context) {
   JointRun run;
   run.sample_rate_hz = context.rate_hz;
@@ -81,7 +75,7 @@ core::Method evaluated_method(const std::string& name, const MethodContext& cont
     core::Contender contender;
     contender.name = name;
     contender.lag_samples = settings.engine.lag_samples;
-    contender.seams = seams_of(settings.engine);
+    contender.seams = core::seams_every(settings.engine.hop_samples, settings.engine.lag_samples);
     auto rates = denoise_record(record_of(noisy_dps, rate_hz), settings,
                                 core::scheme_of(name).value_or(core::Scheme::kRaw), false);
     contender.estimate = std::move(rates[0]);

@@ -109,8 +109,7 @@ core::Contender joint_contender(const JointRun& run, std::span<const double> noi
   const std::size_t lag = run.realtime ? 0 : run.lag_samples;
   estimates.contender.name = run.realtime ? "realtime" : "joint";
   estimates.contender.lag_samples = lag;
-  const std::size_t hop = slow_loop.hop();
-  estimates.contender.seams = core::SeamPattern{hop, (hop - lag % hop) % hop};
+  estimates.contender.seams = core::seams_every(slow_loop.hop(), lag);
   return std::move(estimates.contender);
 }
 

@@ -21,13 +21,12 @@ unsigned doublings_at(const EngineOptions& options, double sample_rate_hz) noexc
 }
 
 std::size_t channel_positions(const EngineOptions& options, unsigned doublings) noexcept {
-  return most_held_samples(options) << doublings;
+  return (options.window_samples + options.max_queued_windows * options.hop_samples +
+          2 * options.max_hop_samples)
+         << doublings;
 }
 
-std::size_t most_held_samples(const EngineOptions& options) noexcept {
-  return options.window_samples + options.max_queued_windows * options.hop_samples +
-         2 * options.max_hop_samples;
-}
+std::size_t most_held_samples(const EngineOptions& options) noexcept { return channel_positions(options, 0); }
 
 Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMethodFactory* models)
     : gate({options.sample_rate_hz, options.max_rate_radps, options.max_bridged_samples}),

@@ -16,7 +16,7 @@ namespace gyrod::stream {
 
 /// Longest window, samples.
 inline constexpr std::size_t kLongestWindow = 65'536;
-/// Most doublings of window and hop.
+/// Most doublings of the window.
 inline constexpr unsigned kMostDoublings = 2;
 
 /// How often the window of a model method doubles where a sensor is fast: the default of 1024 samples then lasts 4.7 to 9.5 s at 108 to 864 Hz.

@@ -22,6 +22,11 @@ struct SeamPattern {
   std::size_t first = 0;
 };
 
+/// Of windows that end at multiples of the hop, or of models that begin there: what is released begins a lag before. @pre hop > 0
+[[nodiscard]] constexpr SeamPattern seams_every(std::size_t hop, std::size_t lag) noexcept {
+  return {hop, (hop - lag % hop) % hop};
+}
+
 /// What one estimator made of one record. All rates in one unit, that of the record.
 struct Contender {
   std::string name;
