@@ -6,7 +6,7 @@
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
 // (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), sine=0 (amplitude of a sine in the noise and in what it is calibrated on, in deviations of the noise), sine_at=0.2, second_sine_at=0 (cycles per sample; 0: none),
 // begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), motion=car (hand: recordings of sensors
-// that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; these have no prototype to compare with); and core::JointOptions' members.
+// that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; shaking: a car's roof, 100 Hz; these have no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -89,8 +89,9 @@ std::vector<test::DriveRow> rows_of(const std::string& motion, const test::Noise
   if (motion == "car") return test::drive_rows(noise);
   if (motion == "hand") return test::hand_rows(noise);
   if (motion == "smooth") return test::smooth_rows(noise);
+  if (motion == "shaking") return test::shaking_rows(noise);
   if (motion == "simulated") return test::simulated_rows(noise);
-  throw std::runtime_error("motion=" + motion + ": expected car, hand, smooth or simulated");
+  throw std::runtime_error("motion=" + motion + ": expected car, hand, shaking, smooth or simulated");
 }
 
 int study(const Arguments& arguments) {

@@ -16,6 +16,10 @@ constexpr double kBandDeviation = 0.1;
 /// Share of bands that hold motion, and the mean of ln(power / noise's) there.
 constexpr double kMotionBands = 0.4;
 constexpr double kMotionExcess = 0.6;
+/// The same where all of it shakes, and how likely that is: what is believed of the level is not given up for it.
+/// Source: docs/decisions/0007, "A car that shakes is not a louder sensor".
+constexpr double kShakingExcess = 2.0;
+constexpr double kShaking = 0.2;
 /// Of ln(level), where it is believed.
 constexpr double kBelievedDeviation = 0.3;
 constexpr double kMeanTilt = 0.3;
@@ -63,17 +67,34 @@ double tilt_at(std::size_t i) noexcept {
   return kTiltStep * static_cast<double>(step);
 }
 
-/// @param excess ln(power / noise's)
-double log_likelihood(double excess) noexcept {
-  static const double alone = (1.0 - kMotionBands) / (kBandDeviation * std::sqrt(2.0 * std::numbers::pi));
-  constexpr double kMoving = kMotionBands / kMotionExcess;
-  static const double log_moving = portable_log(kMoving);
-  static const double at_zero = portable_log(alone + kMoving);
-  const double deviations = excess / kBandDeviation;
-  const double log_normal = -0.5 * deviations * deviations;
-  if (excess <= 0.0) return std::max(at_zero + log_normal, kLeastLogLikelihood);
-  if (deviations > 8.0) return log_moving - excess / kMotionExcess;
-  return portable_log(alone * portable_exp(log_normal) + kMoving * portable_exp(-excess / kMotionExcess));
+/// ln of how likely what a band has is, where motion has this mean excess.
+class BandLikelihood {
+ public:
+  explicit BandLikelihood(double mean_excess) noexcept
+      : mean_excess_(mean_excess), moving_(kMotionBands / mean_excess) {}
+
+  /// @param excess ln(power / noise's)
+  [[nodiscard]] double log_at(double excess) const noexcept {
+    const double deviations = excess / kBandDeviation;
+    const double log_normal = -0.5 * deviations * deviations;
+    if (excess <= 0.0) return std::max(at_zero_ + log_normal, kLeastLogLikelihood);
+    if (deviations > 8.0) return log_moving_ - excess / mean_excess_;
+    return portable_log(alone_ * portable_exp(log_normal) + moving_ * portable_exp(-excess / mean_excess_));
+  }
+
+ private:
+  double mean_excess_;
+  double alone_ = (1.0 - kMotionBands) / (kBandDeviation * std::sqrt(2.0 * std::numbers::pi));
+  double moving_;
+  double log_moving_ = portable_log(moving_);
+  double at_zero_ = portable_log(alone_ + moving_);
+};
+
+/// ln of the weighted sum of what has these logarithms.
+double log_mixture(double log_first, double log_second, double second_weight) noexcept {
+  const double most = std::max(log_first, log_second);
+  return most + portable_log((1.0 - second_weight) * portable_exp(log_first - most) +
+                             second_weight * portable_exp(log_second - most));
 }
 
 const Tilts& all_log_shapes() noexcept {
@@ -91,14 +112,22 @@ NoiseShape likely_shape(const BandPower& power, bool known) noexcept {
   for (std::size_t band = 0; band < kNoiseBands; ++band)
     log_power[band] = portable_log(std::clamp(power[band] / unit, std::numeric_limits<double>::min(),
                                               std::numeric_limits<double>::max()));
+  static const BandLikelihood likelihood{kMotionExcess};
+  static const BandLikelihood shaking{kShakingExcess};
   std::array<double, kTilts * kLevels> posterior{};
   for (std::size_t i = 0; i < posterior.size(); ++i) {
     const BandPower& shape = shapes[i / kLevels];
     const double level = log_level_at(i);
     const double away = known ? level / kBelievedDeviation : 0.0;
     posterior[i] = -tilt_at(i) / kMeanTilt - 0.5 * away * away;
-    for (std::size_t band = 0; band < kNoiseBands; ++band)
-      posterior[i] += log_likelihood(log_power[band] - level - shape[band]);
+    double log_smooth = 0.0;
+    double log_shaking = 0.0;
+    for (std::size_t band = 0; band < kNoiseBands; ++band) {
+      const double excess = log_power[band] - level - shape[band];
+      log_smooth += likelihood.log_at(excess);
+      if (known) log_shaking += shaking.log_at(excess);
+    }
+    posterior[i] += known ? log_mixture(log_smooth, log_shaking, kShaking) : log_smooth;
   }
   const double most = std::ranges::max(posterior);
   double sum = 0.0;

@@ -21,7 +21,8 @@ struct NoiseShape {
 
 /// The mean of level and tilt over what may be, each weighed by how likely the bands are with it. A band holds noise alone, 3 in 5, or motion,
 /// too: with x = ln(power / noise's) its likelihood is
-///   0.6 N(x; 0, 0.1^2) + 0.4 p(x),   p(x) = exp(-x / 0.6) / 0.6 above 0, and falls as the normal density below.
+///   0.6 N(x; 0, 0.1^2) + 0.4 p(x),   p(x) = exp(-x / 0.6) / 0.6 above 0, and falls as the normal density below;
+/// where a level is believed, with one in five all bands together have a mean excess of 2 for 0.6: a car that shakes.
 /// Level and tilt go in steps of 0.05 in ln(level), 0.1; a tilt is likely as exp(-tilt / 0.3), as there are gyros with white noise and with 0.7.
 /// Source: docs/joint.md, "When the noise is not as believed"; docs/decisions/0007.
 /// @param power mean power of each band, in a unit in which it is 1 where there is white noise as believed and nothing else

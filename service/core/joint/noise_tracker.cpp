@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/signal/moments.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -16,6 +17,9 @@ constexpr double kMemory = 3.0;
 /// Most that a band counts for, in parts of the least that it has shown: the least of many estimates is 0.8 to 0.9 of their mean.
 /// Source: docs/decisions/0007, "Quiet moments".
 constexpr double kRise = 1.15;
+/// What is seen in the first window counts from this part of it on, and for more by this times what is missing of it over what there is.
+constexpr double kFirst = 0.3;
+constexpr double kFirstMargin = 0.3;
 /// What the least grows by in a window's length: noise that has become twice as strong is believed within six minutes, and where it was measured at
 /// rest, within minutes that it is a quarter stronger.
 constexpr double kForgetting = 0.03;
@@ -33,6 +37,15 @@ constexpr std::size_t kAlikeBands = 4;
 constexpr double kAlike = 1.25;
 /// What was found in that way holds for as long as they are within this, as bands of noise stay: those of a road were alike by chance.
 constexpr double kStillAlike = 1.6;
+/// Roads are alike in so many bands for a moment, and then shake more; noise stays. So it must have lasted for so many windows' lengths for each unit
+/// of ln(level), up to this level, while these bands are no further than this above the least of late; or nearly all bands agree. What speaks for it is
+/// remembered up to here, and lost at this rate. Source: docs/decisions/0007, "A car that shakes is not a louder sensor".
+constexpr double kLasting = 0.5;
+constexpr double kMostTimed = 7.4;
+constexpr double kSteady = 1.5;
+constexpr std::size_t kManyAlone = 6;
+constexpr double kMostEvidence = 4.0;
+constexpr double kEvidenceLost = 0.5;
 /// And where these are below this, the level is believed to be as low.
 constexpr double kFarBelow = 0.5;
 /// The same by so many bands that are noise alone of a likely shape.
@@ -126,6 +139,7 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
   }
   believed_ = believed;
   far_level_ = 0.0;
+  evidence_ = 0.0;
 }
 
 void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
@@ -141,6 +155,7 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   const NoiseBelief belief = belief_in(believed_);
   const double growth =
       1.0 + forgetting * (belief == NoiseBelief::kColour ? kForgettingMeasured : kForgetting);
+  const double margin = 1.0 + kFirstMargin * std::max(0.0, 1.0 - weight_) / weight_;
   BandPower bounded{};
   for (std::size_t band = 0; band < kNoiseBands; ++band) {
     const auto seen = bins_of(periodogram, band);
@@ -148,10 +163,11 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
     const double sum =
         std::transform_reduce(seen.begin(), seen.end(), expected.begin(), 0.0, std::plus{}, std::divides{});
     ratio_[band] += gain * (sum / static_cast<double>(seen.size()) - ratio_[band]);
-    least_[band] = weight_ <= 1.0 ? ratio_[band] : std::min(growth * least_[band], ratio_[band]);
+    const double most = ratio_[band] * margin;
+    least_[band] = weight_ <= kFirst ? most : std::min(growth * least_[band], most);
     bounded[band] = std::min(ratio_[band], kRise * least_[band]);
   }
-  find_far_level(bounded);
+  find_far_level(bounded, share);
   risen_level_ = belief != NoiseBelief::kNothing && weight_ >= 1.0 ? level_alike(ratio_) : 0.0;
   if (belief == NoiseBelief::kColour) {
     shape_ = {.level = far_level_ > 0.0
@@ -172,14 +188,33 @@ double NoiseTracker::level_alike(const BandPower& power) const noexcept {
   return all_alike ? mean(all.subspan(1, all.size() - 2)) : 0.0;
 }
 
-/// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that. It counts for as
-/// long as none is. Too high: motion only adds.
-void NoiseTracker::find_far_level(const BandPower& power) noexcept {
+/// The mean of the quietest bands that tell something.
+double NoiseTracker::quietest_of(const BandPower& power) const noexcept {
+  const Sorted sorted(power, believed_power_);
+  return mean(sorted.all().first(std::min(kAlikeBands, sorted.all().size())));
+}
+
+/// Whether a level above the believed one has been found for long enough, or by nearly all bands.
+/// @param found whether it is found now, in `power`, the least of late
+/// @param by_nearly_all whether nearly all bands show it
+bool NoiseTracker::has_lasted(bool found, bool by_nearly_all, double level, const BandPower& power,
+                              double share) noexcept {
+  const bool steady = quietest_of(ratio_) <= kSteady * quietest_of(power) || level_alike(ratio_) > 0.0;
+  const double needed = kLasting * portable_log(std::clamp(level, 1.0, kMostTimed));
+  evidence_ = found && steady ? std::min(evidence_ + share, kMostEvidence)
+                              : std::max(evidence_ - kEvidenceLost * share, 0.0);
+  if (found && steady && by_nearly_all) evidence_ = std::max(evidence_, needed);
+  return evidence_ >= needed;
+}
+
+/// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that, for as long as none is.
+/// Too high: motion only adds.
+void NoiseTracker::find_far_level(const BandPower& power, double share) noexcept {
   const Sorted ordered(power, believed_power_);
   const auto sorted = ordered.all();
   const bool few = sorted.size() <= kAlikeBands;
   const auto four = alike(sorted, kAlikeBands, kAlike);
-  const double quiet = mean(four.empty() ? sorted.first(std::min(kAlikeBands, sorted.size())) : four);
+  const double quiet = four.empty() ? quietest_of(power) : mean(four);
   const bool below = quiet < kFarBelow;
   const bool many_alike = sorted.size() > kManyBands && !alike(sorted, kManyBands, kManyAlike).empty();
   const bool louder = belief_in(believed_) == NoiseBelief::kColour && sorted.front() > kLouder &&
@@ -187,18 +222,20 @@ void NoiseTracker::find_far_level(const BandPower& power) noexcept {
   const bool above = !few && (sorted.front() > kMotion || louder);
   if (belief_in(believed_) == NoiseBelief::kNothing || weight_ < 1.0 || (!below && !above)) {
     far_level_ = 0.0;
+    evidence_ = 0.0;
     return;
   }
   NoiseShape likely = likely_shape(power, false);
   likely.level = std::max(likely.level, kLowestLevel);
   const bool whole = belief_in(believed_) == NoiseBelief::kLevel;
-  const bool found =
-      below || !four.empty() ||
-      ((whole || likely.tilt < kMostTilt) && bands_of_noise_alone(power, likely) >= kFewestAlone);
-  if (whole && (found || far_level_ > 0.0)) shape_ = likely;
+  const std::size_t alone = bands_of_noise_alone(power, likely);
+  const bool found = below || !four.empty() || ((whole || likely.tilt < kMostTilt) && alone >= kFewestAlone);
   const double level = whole ? likely.level : std::max(quiet, kLowestLevel);
   const bool holds = whole || !alike(sorted, kAlikeBands, kStillAlike).empty();
-  far_level_ = found ? level : (holds ? std::min(far_level_, level) : 0.0);
+  const double far = found ? level : (holds ? std::min(far_level_, level) : 0.0);
+  const bool by_nearly_all = level_alike(power) > 0.0 || (whole && alone >= kManyAlone);
+  far_level_ = below || has_lasted(found, by_nearly_all, far, power, share) ? far : 0.0;
+  if (whole && far_level_ > 0.0) shape_ = likely;
 }
 
 bool NoiseTracker::disagrees() const noexcept {

@@ -41,7 +41,7 @@ class NoiseTracker {
   /// some; and, as motion comes and goes while noise stays, for more than 1.15 times the least that it has shown no band counts. That is forgotten by a
   /// hundredth a window's length. 1 and white before anything was observed.
   /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 1.4, where
-  /// no band is as quiet as believed and so many are alike that they hold noise and no motion.
+  /// no band is as quiet as believed and so many are alike that they hold noise and no motion, for long enough.
   [[nodiscard]] const NoiseShape& shape() const noexcept { return shape_; }
   [[nodiscard]] double level() const noexcept { return shape_.level; }
 
@@ -57,7 +57,10 @@ class NoiseTracker {
 
  private:
   [[nodiscard]] double level_alike(const BandPower& power) const noexcept;
-  void find_far_level(const BandPower& power) noexcept;
+  [[nodiscard]] double quietest_of(const BandPower& power) const noexcept;
+  void find_far_level(const BandPower& power, double share) noexcept;
+  [[nodiscard]] bool has_lasted(bool found, bool by_nearly_all, double level, const BandPower& power,
+                                double share) noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
 
   NoiseModel believed_;
@@ -66,6 +69,7 @@ class NoiseTracker {
   BandPower least_{};       ///< that ratio_ was of late
   double weight_ = 0.0;     ///< of what was observed, in windows
   double far_level_ = 0.0;  ///< of noise far above what is believed; 0 where it is not
+  double evidence_ = 0.0;   ///< for such a level, in windows' lengths
   double risen_level_ =
       0.0;  ///< what all bands show that are louder than believed, alike; 0 where they are not
   NoiseShape shape_;

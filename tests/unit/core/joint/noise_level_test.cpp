@@ -25,10 +25,10 @@ void observe(NoiseTracker& tracker, const BandPower& bands, int times) {
     tracker.observe(power, std::vector<double>(power.size(), 1.0), believed, 1.0 / 32.0, 1.0 / 32.0);
 }
 
-/// After a window's length.
+/// After three windows' lengths.
 NoiseTracker after_bands(const BandPower& bands) {
   NoiseTracker tracker;
-  observe(tracker, bands, 40);
+  observe(tracker, bands, 96);
   return tracker;
 }
 
@@ -78,6 +78,30 @@ TEST(NoiseLevel, HoldsUntilABandIsAsQuietAsBelieved) {
   observe(tracker, {1.5, 1.5, 1.5, 2.1, 2.1, 3.0, 5.0, 9.0}, 400);
   EXPECT_GT(tracker.level(), 1.4);
   observe(tracker, {1.2, 1.5, 1.5, 2.1, 2.1, 3.0, 5.0, 9.0}, 400);
+  EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
+}
+
+// Four bands of a road are alike for a moment; and where all shake far more than at their quietest, what is alike there is a road, too. A level that
+// is wrong by a factor of 10 must have been there for a window's length, one that nearly all bands show need not.
+TEST(NoiseLevel, IsNotThatOfARoadWhichIsAlikeForAMoment) {
+  const BandPower four_alike = {10.0, 10.0, 10.0, 12.4, 40.0, 60.0, 90.0, 140.0};
+  EXPECT_DOUBLE_EQ(
+      [&] {
+        NoiseTracker tracker;
+        observe(tracker, four_alike, 32 + 24);
+        return tracker.level();
+      }(),
+      1.0);
+  EXPECT_NEAR(
+      [] {
+        NoiseTracker tracker;
+        observe(tracker, {5.0, 10.0, 10.0, 11.0, 11.0, 12.0, 12.0, 900.0}, 32);
+        return tracker.level();
+      }(),
+      10.5, 0.01);
+  NoiseTracker tracker = after_bands(four_alike);
+  ASSERT_NEAR(tracker.level(), 10.6, 1e-9);
+  observe(tracker, {90.0, 120.0, 160.0, 210.0, 280.0, 370.0, 490.0, 650.0}, 400);
   EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
 }
 
