@@ -115,6 +115,11 @@ std::span<const double> alike(std::span<const double> sorted, std::size_t count,
   return {};
 }
 
+/// Mean of the quietest bands, whether they are alike or not.
+double quietest_of(std::span<const double> sorted) noexcept {
+  return mean(sorted.first(std::min(kAlikeBands, sorted.size())));
+}
+
 std::span<const double> bins_of(std::span<const double> spectrum, std::size_t band) noexcept {
   const std::size_t bins = spectrum.size() - 1;
   const std::size_t begin = band * bins / kNoiseBands + 1;
@@ -188,18 +193,14 @@ double NoiseTracker::level_alike(const BandPower& power) const noexcept {
   return all_alike ? mean(all.subspan(1, all.size() - 2)) : 0.0;
 }
 
-/// The mean of the quietest bands that tell something.
-double NoiseTracker::quietest_of(const BandPower& power) const noexcept {
-  const Sorted sorted(power, believed_power_);
-  return mean(sorted.all().first(std::min(kAlikeBands, sorted.all().size())));
-}
-
 /// Whether a level above the believed one has been found for long enough, or by nearly all bands.
-/// @param found whether it is found now, in `power`, the least of late
+/// @param found whether it is found now
 /// @param by_nearly_all whether nearly all bands show it
-bool NoiseTracker::has_lasted(bool found, bool by_nearly_all, double level, const BandPower& power,
+/// @param quietest what the quietest bands have shown of late
+bool NoiseTracker::has_lasted(bool found, bool by_nearly_all, double level, double quietest,
                               double share) noexcept {
-  const bool steady = quietest_of(ratio_) <= kSteady * quietest_of(power) || level_alike(ratio_) > 0.0;
+  const bool steady =
+      quietest_of(Sorted(ratio_, believed_power_).all()) <= kSteady * quietest || level_alike(ratio_) > 0.0;
   const double needed = kLasting * portable_log(std::clamp(level, 1.0, kMostTimed));
   evidence_ = found && steady ? std::min(evidence_ + share, kMostEvidence)
                               : std::max(evidence_ - kEvidenceLost * share, 0.0);
@@ -214,7 +215,7 @@ void NoiseTracker::find_far_level(const BandPower& power, double share) noexcept
   const auto sorted = ordered.all();
   const bool few = sorted.size() <= kAlikeBands;
   const auto four = alike(sorted, kAlikeBands, kAlike);
-  const double quiet = four.empty() ? quietest_of(power) : mean(four);
+  const double quiet = four.empty() ? quietest_of(sorted) : mean(four);
   const bool below = quiet < kFarBelow;
   const bool many_alike = sorted.size() > kManyBands && !alike(sorted, kManyBands, kManyAlike).empty();
   const bool louder = belief_in(believed_) == NoiseBelief::kColour && sorted.front() > kLouder &&
@@ -234,7 +235,7 @@ void NoiseTracker::find_far_level(const BandPower& power, double share) noexcept
   const bool holds = whole || !alike(sorted, kAlikeBands, kStillAlike).empty();
   const double far = found ? level : (holds ? std::min(far_level_, level) : 0.0);
   const bool by_nearly_all = level_alike(power) > 0.0 || (whole && alone >= kManyAlone);
-  far_level_ = below || has_lasted(found, by_nearly_all, far, power, share) ? far : 0.0;
+  far_level_ = below || has_lasted(found, by_nearly_all, far, quietest_of(sorted), share) ? far : 0.0;
   if (whole && far_level_ > 0.0) shape_ = likely;
 }
 

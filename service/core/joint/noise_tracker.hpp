@@ -57,9 +57,8 @@ class NoiseTracker {
 
  private:
   [[nodiscard]] double level_alike(const BandPower& power) const noexcept;
-  [[nodiscard]] double quietest_of(const BandPower& power) const noexcept;
   void find_far_level(const BandPower& power, double share) noexcept;
-  [[nodiscard]] bool has_lasted(bool found, bool by_nearly_all, double level, const BandPower& power,
+  [[nodiscard]] bool has_lasted(bool found, bool by_nearly_all, double level, double quietest,
                                 double share) noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
 
