@@ -6,7 +6,7 @@
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
 // (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), sine=0 (amplitude of a sine in the noise and in what it is calibrated on, in deviations of the noise), sine_at=0.2, second_sine_at=0 (cycles per sample; 0: none),
 // begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), motion=car (hand: recordings of sensors
-// that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; shaking: a car's roof, 100 Hz; these have no prototype to compare with); and core::JointOptions' members.
+// that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; shaking: a car's roof, 100 Hz, 200 s from shaking_from=30 on; these have no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -85,11 +85,12 @@ void print(const char* what, const test::ByLag& values, int digits) {
   for (const double value : values) std::printf(" %5.*f", digits, value);
 }
 
-std::vector<test::DriveRow> rows_of(const std::string& motion, const test::NoiseChoice& noise) {
+std::vector<test::DriveRow> rows_of(const std::string& motion, const test::NoiseChoice& noise,
+                                    double shaking_from_s) {
   if (motion == "car") return test::drive_rows(noise);
   if (motion == "hand") return test::hand_rows(noise);
   if (motion == "smooth") return test::smooth_rows(noise);
-  if (motion == "shaking") return test::shaking_rows(noise);
+  if (motion == "shaking") return test::shaking_rows(noise, shaking_from_s);
   if (motion == "simulated") return test::simulated_rows(noise);
   throw std::runtime_error("motion=" + motion + ": expected car, hand, shaking, smooth or simulated");
 }
@@ -108,7 +109,7 @@ int study(const Arguments& arguments) {
   const std::string motion = found == arguments.end() ? "car" : found->second;
   const auto choice = noise_choice(arguments);
   const test::JointSetting setting = setting_of(arguments);
-  for (auto& row : rows_of(motion, choice)) {
+  for (auto& row : rows_of(motion, choice, number(arguments, "shaking_from", 30))) {
     if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
     add_spikes(row, number(arguments, "spikes", 0));
     for (const auto& [key, cycles] : {std::pair("sine_at", 0.2), std::pair("second_sine_at", 0.0)})

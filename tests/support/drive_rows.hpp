@@ -204,19 +204,20 @@ inline bool has_shaking_rows(const NoiseChoice& noise = {}) {
          std::filesystem::exists(data_folder() / shaking_file());
 }
 
-/// Nine rows of a sensor on a car's roof, 200 s from where it has idled for 30 s: it drives off, and shakes by up to 10 deg/s at all frequencies.
+/// Nine rows of a sensor on a car's roof, 200 s at most; from where it has idled for 30 s it drives off, and shakes by up to 10 deg/s at all frequencies.
 /// Three axes and noise scaled by 1, 0.3 and 3; the rates as recorded are the truth. @pre has_shaking_rows(noise)
-inline std::vector<DriveRow> shaking_rows(const NoiseChoice& noise = {}) {
+inline std::vector<DriveRow> shaking_rows(const NoiseChoice& noise = {}, double begin_s = 30.0) {
   constexpr double kRateHz = 100.0;
-  constexpr std::ptrdiff_t kBegin = 3'000;
-  constexpr std::ptrdiff_t kEnd = 23'000;
+  constexpr std::ptrdiff_t kMostSamples = 20'000;
   const std::vector<double> still = detail::still_dps(noise, kRateHz);
   const files::Record record = detail::load(shaking_file(), kRateHz);
   std::vector<DriveRow> rows;
   for (const double scale : {1.0, 0.3, 3.0}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto& rates = record.gyro_radps[axis];
-      std::vector<double> truth(rates.begin() + kBegin, rates.begin() + kEnd);
+      const auto size = static_cast<std::ptrdiff_t>(rates.size());
+      const auto first = std::min(static_cast<std::ptrdiff_t>(begin_s * kRateHz), size);
+      std::vector<double> truth(rates.begin() + first, rates.begin() + std::min(first + kMostSamples, size));
       for (double& value : truth) value *= 180.0 / std::numbers::pi;
       rows.push_back(detail::noisy_row("shaking", axis, kRateHz, std::move(truth), still, noise, scale));
     }

@@ -46,6 +46,14 @@ constexpr double kSteady = 1.5;
 constexpr std::size_t kManyAlone = 6;
 constexpr double kMostEvidence = 4.0;
 constexpr double kEvidenceLost = 0.5;
+/// Noise of a window of n samples is off the mean of windows by a variance of this over n, motion by more: four bands that are off by this many times
+/// as much hold motion. Nor are there noise and levels above this many times the least that the mean of the quietest four has shown, from this part of
+/// the first window on, where it counts for more by this times what is missing. Source: the same.
+constexpr double kUnrest = 25.0;
+constexpr double kMostUnrest = 3.0;
+constexpr double kAboveQuietest = 1.25;
+constexpr double kFirstQuietest = 0.12;
+constexpr double kQuietestMargin = 0.3;
 /// And where these are below this, the level is believed to be as low.
 constexpr double kFarBelow = 0.5;
 /// The same by so many bands that are noise alone of a likely shape.
@@ -67,13 +75,17 @@ constexpr double kTooLoud = 1.4;
 /// what is left there, no model says to a quarter.
 constexpr double kStopped = 0.1;
 
+/// Where a believed spectrum is below this, a band tells nothing.
+double least_telling(BandPower believed) noexcept {
+  std::ranges::nth_element(believed, believed.begin() + 1, std::greater{});
+  return kStopped * believed[1];
+}
+
 /// The bands that tell something, quietest first.
 class Sorted {
  public:
   Sorted(const BandPower& power, const BandPower& believed) noexcept {
-    BandPower greatest = believed;
-    std::ranges::nth_element(greatest, greatest.begin() + 1, std::greater{});
-    const double least = kStopped * greatest[1];
+    const double least = least_telling(believed);
     for (std::size_t band = 0; band < kNoiseBands; ++band) {
       if (believed[band] >= least) power_[count_++] = power[band];
     }
@@ -145,6 +157,7 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
   believed_ = believed;
   far_level_ = 0.0;
   evidence_ = 0.0;
+  quietest_ = 0.0;
 }
 
 void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
@@ -161,23 +174,27 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   const double growth =
       1.0 + forgetting * (belief == NoiseBelief::kColour ? kForgettingMeasured : kForgetting);
   const double margin = 1.0 + kFirstMargin * std::max(0.0, 1.0 - weight_) / weight_;
+  const double part = std::min(weight_, 1.0);
+  const double noise_unrest = kUnrest / (2.0 * static_cast<double>(periodogram.size() - 1) * part);
   BandPower bounded{};
   for (std::size_t band = 0; band < kNoiseBands; ++band) {
     const auto seen = bins_of(periodogram, band);
     const auto expected = bins_of(noise, band);
     const double sum =
         std::transform_reduce(seen.begin(), seen.end(), expected.begin(), 0.0, std::plus{}, std::divides{});
-    ratio_[band] += gain * (sum / static_cast<double>(seen.size()) - ratio_[band]);
+    const double now = sum / static_cast<double>(seen.size());
+    ratio_[band] += gain * (now - ratio_[band]);
+    const double off = ratio_[band] > 0.0 ? now / ratio_[band] - 1.0 : 0.0;
+    unrest_[band] += std::min(share / part, 1.0) * (off * off / noise_unrest - unrest_[band]);
     const double most = ratio_[band] * margin;
     least_[band] = weight_ <= kFirst ? most : std::min(growth * least_[band], most);
     bounded[band] = std::min(ratio_[band], kRise * least_[band]);
   }
+  watch_quietest(growth);
   find_far_level(bounded, share);
   risen_level_ = belief != NoiseBelief::kNothing && weight_ >= 1.0 ? level_alike(ratio_) : 0.0;
   if (belief == NoiseBelief::kColour) {
-    shape_ = {.level = far_level_ > 0.0
-                           ? far_level_
-                           : level_of(Sorted(ratio_, believed_power_), Sorted(bounded, believed_power_))};
+    shape_ = {.level = far_level_ > 0.0 ? far_level_ : near_level(bounded)};
   } else if (far_level_ == 0.0) {
     shape_ = likely_shape(bounded, belief == NoiseBelief::kLevel);
   }
@@ -193,14 +210,44 @@ double NoiseTracker::level_alike(const BandPower& power) const noexcept {
   return all_alike ? mean(all.subspan(1, all.size() - 2)) : 0.0;
 }
 
+/// Of noise that is nearly as strong as believed: what the bands show, and no more than that where they change by more than noise does.
+double NoiseTracker::near_level(const BandPower& bounded) const noexcept {
+  const double level = level_of(Sorted(ratio_, believed_power_), Sorted(bounded, believed_power_));
+  return level <= 1.0 || is_at_rest() ? level : 1.0;
+}
+
+void NoiseTracker::watch_quietest(double growth) noexcept {
+  if (weight_ < kFirstQuietest) return;
+  const double margin = 1.0 + kQuietestMargin * std::max(0.0, 1.0 / std::sqrt(weight_) - 1.0);
+  const double most = margin * quietest_of(Sorted(ratio_, believed_power_).all());
+  quietest_ = quietest_ > 0.0 ? std::min(growth * quietest_, most) : most;
+}
+
+/// Whether the quietest bands change from window to window no more than noise does.
+bool NoiseTracker::is_at_rest() const noexcept {
+  const double telling = least_telling(believed_power_);
+  const Sorted sorted(ratio_, believed_power_);
+  const auto quiet = sorted.all().first(std::min(kAlikeBands, sorted.all().size()));
+  if (quiet.empty()) return false;
+  double unrest = 0.0;
+  double bands = 0.0;
+  for (std::size_t band = 0; band < kNoiseBands; ++band) {
+    if (believed_power_[band] < telling || ratio_[band] > quiet.back()) continue;
+    unrest += unrest_[band];
+    bands += 1.0;
+  }
+  return unrest <= kMostUnrest * bands;
+}
+
 /// Whether a level above the believed one has been found for long enough, or by nearly all bands.
 /// @param found whether it is found now
 /// @param by_nearly_all whether nearly all bands show it
 /// @param quietest what the quietest bands have shown of late
 bool NoiseTracker::has_lasted(bool found, bool by_nearly_all, double level, double quietest,
                               double share) noexcept {
-  const bool steady =
+  const bool near_least =
       quietest_of(Sorted(ratio_, believed_power_).all()) <= kSteady * quietest || level_alike(ratio_) > 0.0;
+  const bool steady = near_least && is_at_rest();
   const double needed = kLasting * portable_log(std::clamp(level, 1.0, kMostTimed));
   evidence_ = found && steady ? std::min(evidence_ + share, kMostEvidence)
                               : std::max(evidence_ - kEvidenceLost * share, 0.0);
@@ -230,9 +277,11 @@ void NoiseTracker::find_far_level(const BandPower& power, double share) noexcept
   likely.level = std::max(likely.level, kLowestLevel);
   const bool whole = belief_in(believed_) == NoiseBelief::kLevel;
   const std::size_t alone = bands_of_noise_alone(power, likely);
-  const bool found = below || !four.empty() || ((whole || likely.tilt < kMostTilt) && alone >= kFewestAlone);
   const double level = whole ? likely.level : std::max(quiet, kLowestLevel);
-  const bool holds = whole || !alike(sorted, kAlikeBands, kStillAlike).empty();
+  const bool possible = whole || level <= kAboveQuietest * quietest_;
+  const bool shown = below || !four.empty() || ((whole || likely.tilt < kMostTilt) && alone >= kFewestAlone);
+  const bool found = possible && shown;
+  const bool holds = whole || (possible && !alike(sorted, kAlikeBands, kStillAlike).empty());
   const double far = found ? level : (holds ? std::min(far_level_, level) : 0.0);
   const bool by_nearly_all = level_alike(power) > 0.0 || (whole && alone >= kManyAlone);
   far_level_ = below || has_lasted(found, by_nearly_all, far, quietest_of(sorted), share) ? far : 0.0;

@@ -105,6 +105,39 @@ TEST(NoiseLevel, IsNotThatOfARoadWhichIsAlikeForAMoment) {
   EXPECT_DOUBLE_EQ(tracker.level(), 1.0);
 }
 
+// Noise is about the same in every window, shaking is not: here the mean of three windows is the same all the time, and half of the bands are alike in it.
+TEST(NoiseLevel, IsNotThatOfBandsThatComeAndGo) {
+  const auto level_where_they_swing_by = [](double part, const BandPower& mean) {
+    NoiseTracker tracker;
+    for (int i = 0; i < 160; ++i) {
+      BandPower bands = mean;
+      for (double& band : bands) band *= i % 8 < 4 ? 1.0 + part : 1.0 - part;
+      observe(tracker, bands, 1);
+    }
+    return tracker.level();
+  };
+  // The limit of three times 25 / 1024 is a swing of 0.27.
+  const BandPower four_alike = {10.0, 10.0, 10.0, 12.4, 40.0, 60.0, 90.0, 140.0};
+  EXPECT_NEAR(level_where_they_swing_by(0.2, four_alike), 10.6, 0.3);
+  EXPECT_DOUBLE_EQ(level_where_they_swing_by(0.35, four_alike), 1.0);
+  const BandPower a_little_louder = {1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3, 1.3};
+  EXPECT_NEAR(level_where_they_swing_by(0.2, a_little_louder), std::pow(1.3, 1.5), 0.1);
+  EXPECT_DOUBLE_EQ(level_where_they_swing_by(0.35, a_little_louder), 1.0);
+}
+
+// A car that stands for two seconds, and drives off: what was there at first bounds what the noise can be.
+TEST(NoiseLevel, IsNoMoreThanTheFirstMomentsShow) {
+  const auto level_after_a_quarter_of = [](double quiet) {
+    NoiseTracker tracker;
+    observe(tracker, {quiet, quiet, quiet, quiet, 30.0, 40.0, 50.0, 60.0}, 8);
+    observe(tracker, {2.2, 2.2, 2.2, 2.2, 100.0, 150.0, 200.0, 250.0}, 152);
+    return tracker.level();
+  };
+  // The mean of the first quarter counts 1.3 times, and 1.25 times that is the most: 1.79 and 2.44.
+  EXPECT_DOUBLE_EQ(level_after_a_quarter_of(1.1), 1.0);
+  EXPECT_NEAR(level_after_a_quarter_of(1.5), 2.2, 0.05);
+}
+
 // The quietest may be that of a line which is believed to be there and is not: then those next to it.
 TEST(NoiseLevel, TheQuietestBandMayBeThatOfALine) {
   EXPECT_NEAR(level_of_bands({40.0, 10.0, 10.0, 5.0, 10.0, 10.0, 60.0, 90.0}), 10.0, 1e-9);
