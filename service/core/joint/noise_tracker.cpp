@@ -47,8 +47,8 @@ constexpr std::size_t kManyAlone = 6;
 constexpr double kMostEvidence = 4.0;
 constexpr double kEvidenceLost = 0.5;
 /// Noise of a window of n samples is off the mean of windows by a variance of this over n, motion by more: four bands that are off by this many times
-/// as much hold motion. Nor are there noise and levels above this many times the least that the mean of the quietest four has shown, from this part of
-/// the first window on, where it counts for more by this times what is missing. Source: the same.
+/// as much hold motion. Nor is noise louder than this many times the least that quiet_level() has been, from this part of the first window on, where it
+/// counts for more by this times 1 / sqrt(part) - 1. Source: docs/decisions/0007, "What changes is not noise".
 constexpr double kUnrest = 25.0;
 constexpr double kMostUnrest = 3.0;
 constexpr double kAboveQuietest = 1.25;
@@ -132,6 +132,12 @@ double quietest_of(std::span<const double> sorted) noexcept {
   return mean(sorted.first(std::min(kAlikeBands, sorted.size())));
 }
 
+/// Mean of the quietest that are alike, else of the quietest.
+double quiet_level(std::span<const double> sorted) noexcept {
+  const auto four = alike(sorted, kAlikeBands, kAlike);
+  return four.empty() ? quietest_of(sorted) : mean(four);
+}
+
 std::span<const double> bins_of(std::span<const double> spectrum, std::size_t band) noexcept {
   const std::size_t bins = spectrum.size() - 1;
   const std::size_t begin = band * bins / kNoiseBands + 1;
@@ -213,18 +219,18 @@ double NoiseTracker::level_alike(const BandPower& power) const noexcept {
 /// Of noise that is nearly as strong as believed: what the bands show, and no more than that where they change by more than noise does.
 double NoiseTracker::near_level(const BandPower& bounded) const noexcept {
   const double level = level_of(Sorted(ratio_, believed_power_), Sorted(bounded, believed_power_));
-  return level <= 1.0 || is_at_rest() ? level : 1.0;
+  return level <= 1.0 || changes_like_noise() ? level : 1.0;
 }
 
 void NoiseTracker::watch_quietest(double growth) noexcept {
   if (weight_ < kFirstQuietest) return;
   const double margin = 1.0 + kQuietestMargin * std::max(0.0, 1.0 / std::sqrt(weight_) - 1.0);
-  const double most = margin * quietest_of(Sorted(ratio_, believed_power_).all());
+  const double most = margin * quiet_level(Sorted(ratio_, believed_power_).all());
   quietest_ = quietest_ > 0.0 ? std::min(growth * quietest_, most) : most;
 }
 
 /// Whether the quietest bands change from window to window no more than noise does.
-bool NoiseTracker::is_at_rest() const noexcept {
+bool NoiseTracker::changes_like_noise() const noexcept {
   const double telling = least_telling(believed_power_);
   const Sorted sorted(ratio_, believed_power_);
   const auto quiet = sorted.all().first(std::min(kAlikeBands, sorted.all().size()));
@@ -245,9 +251,8 @@ bool NoiseTracker::is_at_rest() const noexcept {
 /// @param quietest what the quietest bands have shown of late
 bool NoiseTracker::has_lasted(bool found, bool by_nearly_all, double level, double quietest,
                               double share) noexcept {
-  const bool near_least =
-      quietest_of(Sorted(ratio_, believed_power_).all()) <= kSteady * quietest || level_alike(ratio_) > 0.0;
-  const bool steady = near_least && is_at_rest();
+  const double now = quietest_of(Sorted(ratio_, believed_power_).all());
+  const bool steady = changes_like_noise() && (now <= kSteady * quietest || level_alike(ratio_) > 0.0);
   const double needed = kLasting * portable_log(std::clamp(level, 1.0, kMostTimed));
   evidence_ = found && steady ? std::min(evidence_ + share, kMostEvidence)
                               : std::max(evidence_ - kEvidenceLost * share, 0.0);
@@ -262,7 +267,7 @@ void NoiseTracker::find_far_level(const BandPower& power, double share) noexcept
   const auto sorted = ordered.all();
   const bool few = sorted.size() <= kAlikeBands;
   const auto four = alike(sorted, kAlikeBands, kAlike);
-  const double quiet = four.empty() ? quietest_of(sorted) : mean(four);
+  const double quiet = quiet_level(sorted);
   const bool below = quiet < kFarBelow;
   const bool many_alike = sorted.size() > kManyBands && !alike(sorted, kManyBands, kManyAlike).empty();
   const bool louder = belief_in(believed_) == NoiseBelief::kColour && sorted.front() > kLouder &&

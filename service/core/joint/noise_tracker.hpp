@@ -38,8 +38,8 @@ class NoiseTracker {
   /// Power of the noise in parts of the believed one, and its tilt where no colour is believed (likely_shape()).
   /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1. Above 1 the smaller of
   /// mean^1.5 and (mean of the quietest three / 1.04)^3, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
-  /// some; nor where the quietest change from window to window by more than noise does; and, as motion comes and goes while noise stays, for more than 1.15 times the least that it has shown no band counts. That is forgotten by a
-  /// hundredth a window's length. 1 and white before anything was observed.
+  /// some; nor where the quietest change from window to window by more than noise does; and, as motion comes and goes while noise stays, for more than
+  /// 1.15 times the least that it has shown no band counts. That is forgotten by a hundredth a window's length. 1 and white before anything was observed.
   /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 1.4, where
   /// no band is as quiet as believed and so many are alike, and change so little, that they hold noise and no motion, for long enough.
   [[nodiscard]] const NoiseShape& shape() const noexcept { return shape_; }
@@ -62,7 +62,7 @@ class NoiseTracker {
                                 double share) noexcept;
   [[nodiscard]] double near_level(const BandPower& bounded) const noexcept;
   void watch_quietest(double growth) noexcept;
-  [[nodiscard]] bool is_at_rest() const noexcept;
+  [[nodiscard]] bool changes_like_noise() const noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
 
   NoiseModel believed_;
@@ -70,7 +70,7 @@ class NoiseTracker {
   BandPower ratio_{};
   BandPower least_{};       ///< that ratio_ was of late
   BandPower unrest_{};      ///< how much windows differ from one another, in parts of what noise does
-  double quietest_ = 0.0;   ///< least that the mean of the quietest bands was; 0 before they have told
+  double quietest_ = 0.0;   ///< least level that the quietest bands have shown; 0 before they have told
   double weight_ = 0.0;     ///< of what was observed, in windows
   double far_level_ = 0.0;  ///< of noise far above what is believed; 0 where it is not
   double evidence_ = 0.0;   ///< for such a level, in windows' lengths

@@ -142,6 +142,9 @@ TEST(NoiseLevel, IsNoMoreThanTheFirstMomentsShow) {
 TEST(NoiseLevel, TheQuietestBandMayBeThatOfALine) {
   EXPECT_NEAR(level_of_bands({40.0, 10.0, 10.0, 5.0, 10.0, 10.0, 60.0, 90.0}), 10.0, 1e-9);
   EXPECT_DOUBLE_EQ(level_of_bands({40.0, 10.0, 10.0, 5.0, 10.0, 13.0, 60.0, 90.0}), 1.0);
+  // However far apart it is: it says nothing of what the others have been.
+  EXPECT_NEAR(level_of_bands({80.0, 20.0, 20.0, 2.1, 20.0, 20.0, 120.0, 180.0}), 20.0, 1e-9);
+  EXPECT_NEAR(level_of_bands({1.9, 0.4, 0.4, 0.001, 0.4, 0.4, 1.9, 1.9}), 0.4, 1e-9);
 }
 
 TEST(NoiseLevel, IsSaidToBeWrongBelowFourFifths) {
