@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/joint/start_noise.hpp"
 #include "stream/method.hpp"
 #include "stream/noise_learner.hpp"
 #include "stream/sample.hpp"
@@ -52,6 +53,7 @@ class FastLoop {
   [[nodiscard]] Answer step(const std::array<double, kAxes>& rate_radps) noexcept {
     Answer answer;
     misfit_ = false;
+    if (origin_.epoch == 0) bound_noise(rate_radps);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
       const Estimates estimates = filters_[axis]->step(rate_radps[axis]);
       answer.realtime[axis] = estimates.realtime;
@@ -81,6 +83,7 @@ class FastLoop {
   void reset() noexcept {
     for (auto& filter : filters_) filter->reset();
     origin_ = {};
+    start_noise_.reset();
     model_fit_ = {};
     claimed_ = {};
     steps_ = 0;
@@ -120,9 +123,16 @@ class FastLoop {
   }
 
  private:
+  /// Nothing is known yet but what the first samples tell.
+  void bound_noise(const std::array<double, kAxes>& rate_radps) noexcept {
+    start_noise_.step(rate_radps);
+    for (std::size_t axis = 0; axis < kAxes; ++axis) filters_[axis]->bound_noise(start_noise_.most(axis));
+  }
+
   std::array<std::unique_ptr<SampleFilter>, kAxes> filters_;
   std::array<std::unique_ptr<Model>, kAxes> models_;
   ModelOrigin origin_;
+  core::StartNoise start_noise_;  ///< until there is one
   std::array<ModelFit, kAxes> model_fit_;
   std::array<double, kAxes> claimed_{};  ///< sum of variances, over steps_
   std::uint64_t steps_ = 0;

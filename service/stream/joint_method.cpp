@@ -7,13 +7,12 @@
 
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
+#include "core/joint/shared_motion.hpp"
+#include "core/joint/start_noise.hpp"
 
 namespace gyrod::stream {
 namespace {
 
-/// The axes of a gyro have noise of a size: an axis that seems to have more than this, in variance, than the quietest, shakes. At rest
-/// they differ by 1.5 (ADIS16405) to 2.2 (MPU6050).
-constexpr double kMostOfQuietest = 2.0;
 /// Beyond these the innovations are not those of the model: 0.6 to 0.8 is what a level 20 % too high looks like.
 constexpr double kLeastInnovation = 0.7;
 constexpr double kLargestInnovation = 2.0;
@@ -54,17 +53,24 @@ struct JointState final : Model {
 class JointMethod final : public ModelMethod {
  public:
   JointMethod(std::size_t window_samples, const core::JointOptions& options, double max_signal_hz)
-      : fit_(window_samples, options), max_signal_hz_(max_signal_hz) {}
+      : fit_(window_samples, options), shared_(window_samples, options), max_signal_hz_(max_signal_hz) {}
 
   [[nodiscard]] std::size_t min_samples() const noexcept override { return core::JointFit::kMinSamples; }
+
+  void compare(const std::array<WindowInput, kAxes>& axes) noexcept override {
+    shared_.set_sample_rate(axes[0].sample_rate_hz);
+    shared_.compare({axes[0].samples, axes[1].samples, axes[2].samples});
+    compared_ = true;
+  }
 
   void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept override {
     const bool known = window.noise_source != NoiseSource::kNone;
     const bool limited = max_signal_hz_ > 0.0 && window.sample_rate_hz > 0.0;
     static_cast<JointState&>(model).follow_rate(window.sample_rate_hz);
     fit_.set_sample_rate(window.sample_rate_hz);
-    fit_.set_most_noise(window.others_noise > 0.0 ? kMostOfQuietest * window.others_noise
+    fit_.set_most_noise(window.others_noise > 0.0 ? core::kMostOfQuietest * window.others_noise
                                                   : std::numeric_limits<double>::infinity());
+    fit_.set_own(compared_ ? shared_.own(window.axis) : core::kAllOwn);
     fit_.set_max_signal(limited ? max_signal_hz_ / window.sample_rate_hz : 1.0);
     fit_.fit(window.samples, known ? window.noise : core::NoiseModel{}, static_cast<JointState&>(model).joint,
              report);
@@ -72,6 +78,8 @@ class JointMethod final : public ModelMethod {
 
  private:
   core::JointFit fit_;
+  core::SharedMotion shared_;
+  bool compared_ = false;
   double max_signal_hz_;
 };
 
@@ -82,6 +90,8 @@ class JointFilter final : public SampleFilter {
   void expect_noise(const core::NoiseModel& noise) noexcept override {
     bank_.expect_noise(core::is_usable(noise) ? core::noise_variance(noise) : 0.0);
   }
+
+  void bound_noise(double variance) noexcept override { bank_.bound_start(variance); }
 
   void use(const Model& model) noexcept override {
     const core::JointModel& joint = static_cast<const JointState&>(model).joint;

@@ -23,6 +23,8 @@ namespace gyrod::stream {
 
 /// What a method is given of one axis at a hop's end.
 struct WindowInput {
+  /// Which one, 0..2.
+  std::size_t axis = 0;
   /// Finite values, rad/s, oldest first; min_samples() to window_samples of them.
   std::span<const double> samples;
   /// Hz; 0 while unknown.
@@ -88,6 +90,9 @@ class SampleFilter {
   /// What is known of the axis's own noise, (rad/s)^2, before a stretch's first sample, for the answers until the first model. Holds until it is
   /// called again. @param noise usable, or nothing is known
   virtual void expect_noise(const core::NoiseModel& noise) noexcept { static_cast<void>(noise); }
+  /// Most that the axis's noise can be, (rad/s)^2, as far as the sensor's axes together tell, where nothing is known of it. Before step(), until the first
+  /// model; infinite where they do not tell.
+  virtual void bound_noise(double variance) noexcept { static_cast<void>(variance); }
   /// Uses this model from the next sample on. Must copy what it needs: the slow loop writes into the same object
   /// again while the filter runs. The filter keeps the recent samples that it needs for the hand-over.
   virtual void use(const Model& model) noexcept = 0;
@@ -103,12 +108,14 @@ class SampleFilter {
   virtual void reset() noexcept = 0;
 };
 
-/// One worker's copy of a model method's slow loop. A call allocates nothing and is a pure function of its input, of which the model
+/// One worker's copy of a model method's slow loop. A call allocates nothing and is a pure function of its input, of which compare() and the model
 /// as the stream's last window left it is a part: windows of a channel are fitted in their order, by whichever worker.
 class ModelMethod {
  public:
   virtual ~ModelMethod() = default;
   [[nodiscard]] virtual std::size_t min_samples() const noexcept = 0;
+  /// Looks at the windows of all axes, of one time and length, of which fit() is called next, one after the other.
+  virtual void compare(const std::array<WindowInput, kAxes>& axes) noexcept { static_cast<void>(axes); }
   /// Fits `model`, the axis's own, to one axis of one window.
   virtual void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept = 0;
 };

@@ -24,7 +24,8 @@ WindowInput input(std::span<double> room, const Channel& channel, const WindowJo
                   std::size_t axis) noexcept {
   const std::span<double> samples = room.first(static_cast<std::size_t>(job.end - job.begin));
   channel.ring.copy(axis, job.begin, samples);
-  return {.samples = samples,
+  return {.axis = axis,
+          .samples = samples,
           .sample_rate_hz = job.sample_rate_hz,
           .noise_source = job.noise.source,
           .noise = job.noise.axis[axis]};
@@ -51,7 +52,7 @@ void Workbench::make_room(unsigned doublings) {
   if (models_ == nullptr || tool.method != nullptr) return;
   const std::size_t window = window_samples_ << doublings;
   ModelTool made{models_->method(window, hop_samples_ << hop_doublings(doublings)),
-                 std::vector<double>(window)};
+                 std::vector<double>(kAxes * window)};
   tool = std::move(made);
 }
 
@@ -106,11 +107,15 @@ void Workbench::fit(ModelTool& tool, Channel& channel, const WindowJob& job) noe
   std::array<double, kAxes> noise{};
   for (std::size_t axis = 0; axis < kAxes; ++axis)
     noise[axis] = channel.fast_loop->model(axis).noise_variance();
+  std::array<WindowInput, kAxes> windows;
+  const std::size_t room = tool.window.size() / kAxes;
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    WindowInput window = input(tool.window, channel, job, axis);
-    window.others_noise = least_of_others(noise, axis);
-    tool.method->fit(window, channel.fast_loop->model(axis), report_.axis[axis]);
+    windows[axis] = input(std::span(tool.window).subspan(axis * room, room), channel, job, axis);
+    windows[axis].others_noise = least_of_others(noise, axis);
   }
+  tool.method->compare(windows);
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
+    tool.method->fit(windows[axis], channel.fast_loop->model(axis), report_.axis[axis]);
 }
 
 /// The report's frame around the axes' figures, and the epoch of the samples.

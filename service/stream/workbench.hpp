@@ -48,7 +48,7 @@ class Workbench {
   /// For windows of one length.
   struct ModelTool {
     std::unique_ptr<ModelMethod> method;
-    std::vector<double> window;
+    std::vector<double> window;  ///< of each axis, one after the other
   };
 
   void collect(const Channel& channel, const WindowJob& job) noexcept;

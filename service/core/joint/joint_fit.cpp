@@ -91,7 +91,8 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
   take_lines(model.lines, noise_.lines());
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
-  model.noise.observe(periodogram_, whittle_.noise(), believed, new_share(), scale_.forgetting(new_share()));
+  model.noise.observe(periodogram_, whittle_.noise(), believed, new_share(), scale_.forgetting(new_share()),
+                      own_);
   const NoiseShape& shape = model.noise.shape();
   if (belief == NoiseBelief::kColour) {
     noise_ = scaled(without_lines(noise_), std::sqrt(shape.level));

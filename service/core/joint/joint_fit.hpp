@@ -46,6 +46,9 @@ class JointFit {
   /// the sensor's other axes tell.
   void set_most_noise(double variance) noexcept { most_noise_ = variance; }
 
+  /// From here on so much of each band no other axis of the sensor shares (SharedMotion); all of it at the start.
+  void set_own(const BandPower& own) noexcept { own_ = own; }
+
   /// @param window uniformly sampled, finite, any unit
   /// @param noise  the channel's noise; where it is not usable, or of its colour nothing is believed, what NoiseTracker makes of the bands is taken
   /// @param model  receives the members; untouched where the window does not vary
@@ -101,6 +104,7 @@ class JointFit {
   std::array<NoiseLine, kMaxNoiseLines> lines_{};  ///< of this window, in parts of unit_
   double unit_ = 1.0;                              ///< variance of the noise
   double most_noise_ = std::numeric_limits<double>::infinity();
+  BandPower own_ = kAllOwn;
   double max_signal_cycles_ = 1.0;
   ModeSet full_;
   ModeSet pruned_;

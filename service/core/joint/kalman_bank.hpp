@@ -50,6 +50,7 @@ class KalmanBank {
   void use(const JointModel& model) noexcept;
   /// Variance of the sensor's noise, unit^2, as known before there is a model; 0 (at first): it is guessed. Used until the first model, and
   /// again after reset().
+  void bound_start(double variance) noexcept { start_.bound_guess(variance); }
   void expect_noise(double variance) noexcept { start_.expect_noise(variance); }
   /// Takes z[t].
   BankEstimates step(double sample) noexcept;

@@ -11,6 +11,8 @@ namespace gyrod::core {
 /// Bands of equal width between 0 and half the sample rate, in which noise is told from motion.
 inline constexpr std::size_t kNoiseBands = 8;
 using BandPower = std::array<double, kNoiseBands>;
+/// Of a sensor with one axis: it shares nothing.
+inline constexpr BandPower kAllOwn = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
 /// Noise whose spectrum falls with frequency as that of a gyro with a low-pass above half its sample rate does: (1 - tilt) white,
 /// tilt of an AR(1) process with coefficient 0.25, which is 2.8 times as strong at 0 as at half the rate.

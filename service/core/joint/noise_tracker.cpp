@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/joint/sorted_bands.hpp"
 #include "core/signal/moments.hpp"
 #include "core/signal/portable_math.hpp"
 
@@ -31,10 +32,6 @@ constexpr double kMotion = 2.0;
 /// Source: docs/decisions/0007, "What a model at rest is off by".
 constexpr double kModelError = 1.04;
 constexpr std::size_t kQuietest = 3;
-/// Where all bands are beyond that, and so many of the quietest no further apart than this, these hold noise: roads differ by more.
-/// Source: docs/decisions/0007, "A level that is far too low".
-constexpr std::size_t kAlikeBands = 4;
-constexpr double kAlike = 1.25;
 /// What was found in that way holds for as long as they are within this, as bands of noise stay: those of a road were alike by chance.
 constexpr double kStillAlike = 1.6;
 /// Roads are alike in so many bands for a moment, and then shake more; noise stays. So it must have lasted for so many windows' lengths for each unit
@@ -71,33 +68,6 @@ constexpr double kLowestLevel = 1e-3;
 constexpr double kTooQuiet = 0.8;
 constexpr double kTooLoud = 1.4;
 
-/// A believed spectrum falls below this part of its second greatest band, as the greatest may be that of a line, where a sensor's low-pass stops:
-/// what is left there, no model says to a quarter.
-constexpr double kStopped = 0.1;
-
-/// Where a believed spectrum is below this, a band tells nothing.
-double least_telling(BandPower believed) noexcept {
-  std::ranges::nth_element(believed, believed.begin() + 1, std::greater{});
-  return kStopped * believed[1];
-}
-
-/// The bands that tell something, quietest first.
-class Sorted {
- public:
-  Sorted(const BandPower& power, const BandPower& believed) noexcept {
-    const double least = least_telling(believed);
-    for (std::size_t band = 0; band < kNoiseBands; ++band) {
-      if (believed[band] >= least) power_[count_++] = power[band];
-    }
-    std::sort(power_.begin(), power_.begin() + static_cast<std::ptrdiff_t>(count_));
-  }
-  [[nodiscard]] std::span<const double> all() const noexcept { return std::span(power_).first(count_); }
-
- private:
-  BandPower power_{};
-  std::size_t count_ = 0;
-};
-
 /// Level of noise whose colour is known.
 double level_of(std::span<const double> sorted) noexcept {
   const auto motion = std::ranges::find_if(sorted, [](double ratio) { return ratio > kMotion; });
@@ -113,29 +83,9 @@ double level_of(std::span<const double> sorted) noexcept {
 }
 
 /// The same, where bands were as quiet as `bounded` within memory: that takes from a level above 1, and does not make one below it.
-double level_of(const Sorted& ratio, const Sorted& bounded) noexcept {
+double level_of(const SortedBands& ratio, const SortedBands& bounded) noexcept {
   const double level = level_of(ratio.all());
   return level <= 1.0 ? level : std::clamp(level_of(bounded.all()), 1.0, level);
-}
-
-/// The quietest bands, or where the quietest is apart, as that of a line which is believed to be there, those next to it: so many, if they are
-/// within a factor of one another; else none.
-std::span<const double> alike(std::span<const double> sorted, std::size_t count, double factor) noexcept {
-  for (std::size_t first = 0; first < 2 && first + count <= sorted.size(); ++first) {
-    if (sorted[first + count - 1] <= factor * sorted[first]) return sorted.subspan(first, count);
-  }
-  return {};
-}
-
-/// Mean of the quietest bands, whether they are alike or not.
-double quietest_of(std::span<const double> sorted) noexcept {
-  return mean(sorted.first(std::min(kAlikeBands, sorted.size())));
-}
-
-/// Mean of the quietest that are alike, else of the quietest.
-double quiet_level(std::span<const double> sorted) noexcept {
-  const auto four = alike(sorted, kAlikeBands, kAlike);
-  return four.empty() ? quietest_of(sorted) : mean(four);
 }
 
 std::span<const double> bins_of(std::span<const double> spectrum, std::size_t band) noexcept {
@@ -157,6 +107,8 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
     const double power = unit * mean(bins_of(noise, band));
     const double factor = weight_ > 0.0 && power > 0.0 ? believed_power_[band] / power : 1.0;
     ratio_[band] *= factor;
+    own_ratio_[band] *= factor;
+    own_least_[band] *= factor;
     least_[band] *= factor;
     believed_power_[band] = power;
   }
@@ -167,7 +119,8 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
 }
 
 void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
-                           const NoiseModel& believed, double share, double forgetting) noexcept {
+                           const NoiseModel& believed, double share, double forgetting,
+                           const BandPower& own) noexcept {
   assert(periodogram.size() == noise.size() && periodogram.size() > kNoiseBands);
   if (believed != believed_ || weight_ == 0.0) restate(noise, believed);
   if (!std::ranges::all_of(ratio_, [](double ratio) { return std::isfinite(ratio); })) {
@@ -189,12 +142,17 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
     const double sum =
         std::transform_reduce(seen.begin(), seen.end(), expected.begin(), 0.0, std::plus{}, std::divides{});
     const double now = sum / static_cast<double>(seen.size());
+    own_ratio_[band] += gain * (now * own[band] - own_ratio_[band]);
     ratio_[band] += gain * (now - ratio_[band]);
     const double off = ratio_[band] > 0.0 ? now / ratio_[band] - 1.0 : 0.0;
     unrest_[band] += std::min(share / part, 1.0) * (off * off / noise_unrest - unrest_[band]);
-    const double most = ratio_[band] * margin;
-    least_[band] = weight_ <= kFirst ? most : std::min(growth * least_[band], most);
-    bounded[band] = std::min(ratio_[band], kRise * least_[band]);
+    const auto least = [&](double before, double ratio) {
+      return weight_ <= kFirst ? ratio * margin : std::min(growth * before, ratio * margin);
+    };
+    least_[band] = least(least_[band], ratio_[band]);
+    own_least_[band] = least(own_least_[band], own_ratio_[band]);
+    bounded[band] = belief == NoiseBelief::kNothing ? std::min(own_ratio_[band], kRise * own_least_[band])
+                                                    : std::min(ratio_[band], kRise * least_[band]);
   }
   watch_quietest(growth);
   find_far_level(bounded, share);
@@ -204,12 +162,21 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   } else if (far_level_ == 0.0) {
     shape_ = likely_shape(bounded, belief == NoiseBelief::kLevel);
   }
+  if (belief == NoiseBelief::kLevel) bound_by_own();
+}
+
+/// Of what raises the level, only what the axis shares with no other is noise.
+void NoiseTracker::bound_by_own() noexcept {
+  if (shape_.level <= 1.0) return;
+  const double all = quiet_level(SortedBands(ratio_, believed_power_).all());
+  const double own = quiet_level(SortedBands(own_ratio_, believed_power_).all());
+  if (own < all) shape_.level = std::max(1.0, shape_.level * own / all);
 }
 
 /// Where all bands are further above what is believed than noise is, and alike but for the quietest and the loudest, which may hold a line and
 /// motion: the mean of those; else 0.
 double NoiseTracker::level_alike(const BandPower& power) const noexcept {
-  const Sorted sorted(power, believed_power_);
+  const SortedBands sorted(power, believed_power_);
   const auto all = sorted.all();
   const bool all_alike =
       all.size() >= kAlikeBands && all.front() > kMotion && all[all.size() - 2] <= kAlike * all[1];
@@ -218,21 +185,21 @@ double NoiseTracker::level_alike(const BandPower& power) const noexcept {
 
 /// Of noise that is nearly as strong as believed: what the bands show, and no more than that where they change by more than noise does.
 double NoiseTracker::near_level(const BandPower& bounded) const noexcept {
-  const double level = level_of(Sorted(ratio_, believed_power_), Sorted(bounded, believed_power_));
+  const double level = level_of(SortedBands(ratio_, believed_power_), SortedBands(bounded, believed_power_));
   return level <= 1.0 || changes_like_noise() ? level : 1.0;
 }
 
 void NoiseTracker::watch_quietest(double growth) noexcept {
   if (weight_ < kFirstQuietest) return;
   const double margin = 1.0 + kQuietestMargin * std::max(0.0, 1.0 / std::sqrt(weight_) - 1.0);
-  const double most = margin * quiet_level(Sorted(ratio_, believed_power_).all());
+  const double most = margin * quiet_level(SortedBands(ratio_, believed_power_).all());
   quietest_ = quietest_ > 0.0 ? std::min(growth * quietest_, most) : most;
 }
 
 /// Whether the quietest bands change from window to window no more than noise does.
 bool NoiseTracker::changes_like_noise() const noexcept {
   const double telling = least_telling(believed_power_);
-  const Sorted sorted(ratio_, believed_power_);
+  const SortedBands sorted(ratio_, believed_power_);
   const auto quiet = sorted.all().first(std::min(kAlikeBands, sorted.all().size()));
   if (quiet.empty()) return false;
   double unrest = 0.0;
@@ -251,7 +218,7 @@ bool NoiseTracker::changes_like_noise() const noexcept {
 /// @param quietest what the quietest bands have shown of late
 bool NoiseTracker::has_lasted(bool found, bool by_nearly_all, double level, double quietest,
                               double share) noexcept {
-  const double now = quietest_of(Sorted(ratio_, believed_power_).all());
+  const double now = quietest_of(SortedBands(ratio_, believed_power_).all());
   const bool steady = changes_like_noise() && (now <= kSteady * quietest || level_alike(ratio_) > 0.0);
   const double needed = kLasting * portable_log(std::clamp(level, 1.0, kMostTimed));
   evidence_ = found && steady ? std::min(evidence_ + share, kMostEvidence)
@@ -263,7 +230,7 @@ bool NoiseTracker::has_lasted(bool found, bool by_nearly_all, double level, doub
 /// A believed level that is wrong by a factor, as of another sensor or in another unit. Too low: no band is as quiet as that, for as long as none is.
 /// Too high: motion only adds.
 void NoiseTracker::find_far_level(const BandPower& power, double share) noexcept {
-  const Sorted ordered(power, believed_power_);
+  const SortedBands ordered(power, believed_power_);
   const auto sorted = ordered.all();
   const bool few = sorted.size() <= kAlikeBands;
   const auto four = alike(sorted, kAlikeBands, kAlike);

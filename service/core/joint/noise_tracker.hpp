@@ -32,14 +32,16 @@ class NoiseTracker {
   ///   changed, what is remembered is restated
   /// @param share how much of a window is new since the last one, 0..1: hop / window
   /// @param forgetting the same in parts of the design's window, in seconds (JointScale::forgetting()): by that the least is forgotten
+  /// @param own how much of each band no other axis of the sensor shares (SharedMotion): what is shared is motion
   void observe(std::span<const double> periodogram, std::span<const double> noise, const NoiseModel& believed,
-               double share, double forgetting) noexcept;
+               double share, double forgetting, const BandPower& own = kAllOwn) noexcept;
 
   /// Power of the noise in parts of the believed one, and its tilt where no colour is believed (likely_shape()).
   /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1. Above 1 the smaller of
   /// mean^1.5 and (mean of the quietest three / 1.04)^3, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
   /// some; nor where the quietest change from window to window by more than noise does; and, as motion comes and goes while noise stays, for more than
   /// 1.15 times the least that it has shown no band counts. That is forgotten by a hundredth a window's length. 1 and white before anything was observed.
+  /// Of a level alone that is believed no more above 1 counts than the part of the quietest bands that no other axis shares.
   /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 1.4, where
   /// no band is as quiet as believed and so many are alike, and change so little, that they hold noise and no motion, for long enough.
   [[nodiscard]] const NoiseShape& shape() const noexcept { return shape_; }
@@ -61,6 +63,7 @@ class NoiseTracker {
   [[nodiscard]] bool has_lasted(bool found, bool by_nearly_all, double level, double quietest,
                                 double share) noexcept;
   [[nodiscard]] double near_level(const BandPower& bounded) const noexcept;
+  void bound_by_own() noexcept;
   void watch_quietest(double growth) noexcept;
   [[nodiscard]] bool changes_like_noise() const noexcept;
   void restate(std::span<const double> noise, const NoiseModel& believed) noexcept;
@@ -68,7 +71,9 @@ class NoiseTracker {
   NoiseModel believed_;
   BandPower believed_power_{};  ///< of the bands, in the data's unit squared
   BandPower ratio_{};
+  BandPower own_ratio_{};   ///< the same of what the axis shares with no other
   BandPower least_{};       ///< that ratio_ was of late
+  BandPower own_least_{};   ///< that own_ratio_ was
   BandPower unrest_{};      ///< how much windows differ from one another, in parts of what noise does
   double quietest_ = 0.0;   ///< least level that the quietest bands have shown; 0 before they have told
   double weight_ = 0.0;     ///< of what was observed, in windows

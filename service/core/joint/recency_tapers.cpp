@@ -49,16 +49,39 @@ void RecencyTapers::spectrum(std::span<const double> x, std::span<double> power)
   }
 }
 
-void RecencyTapers::prewhitened_spectrum(std::span<const double> x, std::span<double> power) noexcept {
+/// Differences of x, in whitened_. @return c
+double RecencyTapers::prewhiten(std::span<const double> x) noexcept {
   std::array<double, 2> r{};
   autocovariance(x, r);
   const double c = r[0] > 0.0 ? std::min(r[1] / r[0], 1.0 - bandwidth_) : 0.0;
   const std::span<double> y = std::span(whitened_).first(x.size());
   y[0] = (1.0 - c) * x[0];
   for (std::size_t i = 1; i < x.size(); ++i) y[i] = x[i] - c * x[i - 1];
-  spectrum(y, power);
+  return c;
+}
+
+void RecencyTapers::prewhitened_spectrum(std::span<const double> x, std::span<double> power) noexcept {
+  const double c = prewhiten(x);
+  spectrum(std::span(whitened_).first(x.size()), power);
   for (std::size_t bin = 0; bin < power.size(); ++bin)
     power[bin] /= (1.0 - c) * (1.0 - c) + 4.0 * c * half_sines_[bin];
+}
+
+void RecencyTapers::prewhitened_transforms(std::span<const double> x,
+                                           std::span<std::complex<double>> transforms) noexcept {
+  assert(transforms.size() == tapers_ * bins());
+  const double c = prewhiten(x);
+  for (std::size_t k = 0; k < tapers_; ++k) {
+    const auto product = tapered(std::span(whitened_).first(x.size()), k);
+    std::fill(work_.begin() + static_cast<std::ptrdiff_t>(product.size()), work_.end(), 0.0);
+    const auto transform = transforms.subspan(k * bins(), bins());
+    transform_.forward(work_, transform);
+    for (std::size_t bin = 0; bin < transform.size(); ++bin) {
+      const double half = half_sines_[bin];
+      transform[bin] /= std::complex<double>(1.0 - c + 2.0 * c * half,
+                                             2.0 * c * std::sqrt(std::max(half - half * half, 0.0)));
+    }
+  }
 }
 
 void RecencyTapers::autocovariance(std::span<const double> x, std::span<double> r) noexcept {
@@ -94,6 +117,14 @@ void RecencyTapers::prepare(std::size_t samples) noexcept {
     slopes += row[0] * row[0];
     for (std::size_t i = 1; i < samples; ++i) slopes += (row[i] - row[i - 1]) * (row[i] - row[i - 1]);
   }
+  double squares = 0.0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    double weight = 0.0;
+    for (std::size_t k = 0; k < tapers_; ++k)
+      weight += taper(k)[i] * taper(k)[i] / static_cast<double>(tapers_);
+    squares += weight * weight;
+  }
+  equivalent_samples_ = 1.0 / squares;
   bandwidth_ = std::sqrt(slopes / static_cast<double>(tapers_));
 }
 

@@ -40,6 +40,13 @@ class RecencyTapers {
   /// @pre as above
   void prewhitened_spectrum(std::span<const double> x, std::span<double> power) noexcept;
 
+  /// Before the mean of prewhitened_spectrum() is taken: sum_i t_k(i) y_i e^-iwi / (1 - c e^-iw), taper by taper.
+  /// @pre as above, transforms.size() == tapers * bins()
+  void prewhitened_transforms(std::span<const double> x, std::span<std::complex<double>> transforms) noexcept;
+
+  /// As many samples, all weighed alike, tell a mean power as well as these tapers do. @pre a call above, of such windows
+  [[nodiscard]] double equivalent_samples() const noexcept { return equivalent_samples_; }
+
   /// Autocovariances of spectrum() without the wrap-around: r_l = mean over tapers of sum_i t(i) x_i t(i+l) x_(i+l), l = 0..r.size()-1.
   /// @pre as above, r.size() <= x.size()
   void autocovariance(std::span<const double> x, std::span<double> r) noexcept;
@@ -47,6 +54,7 @@ class RecencyTapers {
  private:
   void prepare(std::size_t samples) noexcept;
   [[nodiscard]] std::span<const double> taper(std::size_t k) const noexcept;
+  [[nodiscard]] double prewhiten(std::span<const double> x) noexcept;
   [[nodiscard]] std::span<double> tapered(std::span<const double> x, std::size_t k) noexcept;
 
   std::size_t max_samples_;
@@ -57,6 +65,7 @@ class RecencyTapers {
   std::vector<double> table_;  ///< tapers_ rows of max_samples_
   std::vector<double> work_;
   std::vector<double> whitened_;
+  double equivalent_samples_ = 0.0;
   double bandwidth_ = 0.0;          ///< rms of the tapers' own frequencies, rad a sample
   std::vector<double> half_sines_;  ///< sin^2(w / 2)
   RealTransform transform_;

@@ -30,6 +30,8 @@ void StartLevels::reset() noexcept {
   variance_ = known_variance_;
   differences_ = {};
   guesses_ = 0.0;
+  guess_ = 0.0;
+  most_ = std::numeric_limits<double>::infinity();
 }
 
 void StartLevels::step(double sample) noexcept {
@@ -37,6 +39,7 @@ void StartLevels::step(double sample) noexcept {
     variance_ = known_variance_;
   } else {
     guess_variance(sample);
+    variance_ = std::min(guess_, most_);
   }
   const std::size_t now = count_ % kHeld;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -69,7 +72,7 @@ void StartLevels::guess_variance(double sample) noexcept {
   const double guess = order == 0 ? 0.0 : difference * difference / kOfDifferences[order - 1];
   if (!std::isfinite(guess)) return;
   guesses_ += 1.0;
-  variance_ += (guess - variance_) / guesses_;
+  guess_ += (guess - guess_) / guesses_;
 }
 
 /// Bayes' rule after some of the weight has been shared out.

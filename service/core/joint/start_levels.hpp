@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/joint/bank_estimate.hpp"
 #include "core/joint/joint_options.hpp"
@@ -23,6 +24,8 @@ class StartLevels {
   void reset() noexcept;
   /// var v, unit^2, where the sensor's noise is known; 0: it is guessed from fourth differences, which motion makes larger.
   void expect_noise(double variance) noexcept { known_variance_ = variance; }
+  /// A guess is no more than this from here on, unit^2; infinite after reset(). For what the sensor's other axes tell.
+  void bound_guess(double variance) noexcept { most_ = variance; }
   /// Takes z[t].
   void step(double sample) noexcept;
 
@@ -62,6 +65,8 @@ class StartLevels {
   std::uint64_t count_ = 0;
   double known_variance_ = 0.0;
   double variance_ = 0.0;
+  double guess_ = 0.0;  ///< by differences
+  double most_ = std::numeric_limits<double>::infinity();
   std::array<double, 4> differences_{};  ///< the last sample, and its differences of orders 1 to 3
   double guesses_ = 0.0;                 ///< that make up the guess
 };

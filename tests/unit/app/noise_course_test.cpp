@@ -86,16 +86,16 @@ double worst_difference(const char* name, app::EstimateKind kind, const app::Met
   return worst;
 }
 
-// Before anything is known the daemon also bounds the noise by the quietest axis. What came of that is forgotten by the second half of the rest, but
-// for what models remember.
+// Before anything is known the daemon also bounds the noise by what the axes share and by the quietest. What came of that is forgotten by the second
+// half of the rest, but for the slow corrections' memory of half a minute.
 TEST(LearnedAtRest, IsUsedFromTheSameSampleOnAsTheDaemonDoes) {
   const settings::Settings settings;
   const std::array<Signal, 3> rates = {rest_then_swing(1), rest_then_swing(2), rest_then_swing(3)};
   const auto course = app::learned_at_rest({rates[0], rates[1], rates[2]}, kCourseRateHz)[0];
   const app::MethodContext learned{settings, settings.engine.lag_samples, kCourseRateHz, course};
   const app::MethodContext guessing{settings, settings.engine.lag_samples, kCourseRateHz, {}};
-  EXPECT_LT(worst_difference("joint", app::EstimateKind::kDenoised, learned, rates), 1e-5);
-  EXPECT_LT(worst_difference("realtime", app::EstimateKind::kRealtime, learned, rates), 1e-5);
+  EXPECT_LT(worst_difference("joint", app::EstimateKind::kDenoised, learned, rates), 1e-3);
+  EXPECT_LT(worst_difference("realtime", app::EstimateKind::kRealtime, learned, rates), 1e-3);
   EXPECT_GT(worst_difference("joint", app::EstimateKind::kDenoised, guessing, rates), 0.05);
 }
 

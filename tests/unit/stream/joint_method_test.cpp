@@ -1,6 +1,7 @@
 // The two-speed estimator behind the engine's seam: what it is told, and what it keeps.
 #include "stream/joint_method.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -67,6 +68,34 @@ std::vector<double> answers(Axis& axis, const Signal& samples) {
   std::vector<double> all;
   for (const double sample : samples) all.push_back(axis.filter->step(sample).denoised.rate);
   return all;
+}
+
+// A body that shakes evenly at all frequencies about an axis of its own, and nothing known: no axis by itself could tell that from noise.
+TEST(JointMethod, TellsShakingThatAxesShareFromNoise) {
+  const ModelMethodFactory factory = joint_method({});
+  const std::unique_ptr<ModelMethod> method = factory.method(kJointWindow, 32);
+  const Signal shaking = testing::white_noise(kJointWindow, 77);
+  std::array<Signal, kAxes> axes;
+  std::array<WindowInput, kAxes> windows;
+  for (unsigned axis = 0; axis < kAxes; ++axis) {
+    const Signal noise =
+        testing::times(testing::white_noise(kJointWindow, 78 + axis), std::sqrt(kJointNoise));
+    axes[axis] = testing::sum(noise, shaking, 2.0 - axis);
+    windows[axis].axis = axis;
+    windows[axis].samples = axes[axis];
+    windows[axis].sample_rate_hz = 100.0;
+  }
+  const auto noise_of = [&](std::size_t axis) {
+    const std::unique_ptr<Model> model = factory.model();
+    core::WindowReport report;
+    method->fit(windows[axis], *model, report);
+    return model->noise_variance();
+  };
+  EXPECT_GT(noise_of(0), 100.0 * kJointNoise);  // as the windows have not been compared
+  method->compare(windows);
+  EXPECT_LT(noise_of(0), 10.0 * kJointNoise);  // what x is by y: twice the noise of y, and its own
+  EXPECT_LT(noise_of(1), 3.0 * kJointNoise);
+  EXPECT_LT(noise_of(2), 1.5 * kJointNoise);
 }
 
 // The parts do it: the limit of the signal band in cycles per sample is that in Hz over the sample rate.

@@ -34,6 +34,31 @@ NoiseTracker after_bands(const BandPower& bands) {
 
 double level_of_bands(const BandPower& bands) { return after_bands(bands).level(); }
 
+// What other axes share of a band is motion: where a level alone is believed it raises none, and makes none less than believed. Where a colour is
+// known, the bands themselves tell.
+TEST(NoiseLevel, IsNoMoreThanTheAxisHasByItself) {
+  const auto level = [](const NoiseModel& believed, double own) {
+    NoiseTracker tracker;
+    BandPower share{};
+    share.fill(own);
+    const std::vector<double> power(kNoiseBands * 64 + 1, 1.3);
+    for (int i = 0; i < 96; ++i)
+      tracker.observe(power, std::vector<double>(power.size(), 1.0), believed, 1.0 / 32.0, 1.0 / 32.0, share);
+    return tracker.level();
+  };
+  const NoiseModel white = white_noise(1.0);
+  const double all = level(white, 1.0);
+  ASSERT_GT(all, 1.2);
+  EXPECT_NEAR(level(white, 0.9), 0.9 * all, 1e-9);
+  EXPECT_EQ(level(white, 0.1), 1.0);
+  NoiseModel coloured = white_noise(0.9);
+  coloured.colour_order = 1;
+  coloured.colour[0] = 0.1;
+  coloured.colour_variance = 0.1;
+  EXPECT_EQ(level(coloured, 0.1), level(coloured, 1.0));
+  EXPECT_NEAR(level({}, 0.5), 0.5 * level({}, 1.0), 1e-9);
+}
+
 // The mean to the power of 1.5, or that of the quietest three beyond 4 % to the power of 3: the smaller.
 TEST(NoiseLevel, IsRaisedAsTheQuietestThreeAllow) {
   EXPECT_NEAR(level_of_bands({1.08, 1.08, 1.08, 1.5, 1.5, 1.5, 1.5, 1.5}), std::pow(1.08 / 1.04, 3.0), 1e-9);
