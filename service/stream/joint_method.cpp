@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "core/joint/explained_share.hpp"
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
 #include "core/joint/shared_motion.hpp"
-#include "core/joint/start_noise.hpp"
 
 namespace gyrod::stream {
 namespace {
@@ -60,7 +60,6 @@ class JointMethod final : public ModelMethod {
   void compare(const std::array<WindowInput, kAxes>& axes) noexcept override {
     shared_.set_sample_rate(axes[0].sample_rate_hz);
     shared_.compare({axes[0].samples, axes[1].samples, axes[2].samples});
-    compared_ = true;
   }
 
   void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept override {
@@ -70,7 +69,7 @@ class JointMethod final : public ModelMethod {
     fit_.set_sample_rate(window.sample_rate_hz);
     fit_.set_most_noise(window.others_noise > 0.0 ? core::kMostOfQuietest * window.others_noise
                                                   : std::numeric_limits<double>::infinity());
-    fit_.set_own(compared_ ? shared_.own(window.axis) : core::kAllOwn);
+    fit_.set_own(shared_.own(window.axis));
     fit_.set_max_signal(limited ? max_signal_hz_ / window.sample_rate_hz : 1.0);
     fit_.fit(window.samples, known ? window.noise : core::NoiseModel{}, static_cast<JointState&>(model).joint,
              report);
@@ -79,7 +78,6 @@ class JointMethod final : public ModelMethod {
  private:
   core::JointFit fit_;
   core::SharedMotion shared_;
-  bool compared_ = false;
   double max_signal_hz_;
 };
 

@@ -14,6 +14,7 @@
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
 #include "core/joint/noise_shape.hpp"
+#include "core/joint/shared_motion.hpp"
 #include "core/simulation/simulated_gyro.hpp"
 
 namespace gyrod {
@@ -145,6 +146,17 @@ void part_noise_shape(benchmark::State& state) {
   }
 }
 BENCHMARK(part_noise_shape)->Unit(benchmark::kMicrosecond);
+
+/// The windows of a sensor's three axes, once a hop.
+void part_shared_motion(benchmark::State& state) {
+  core::SharedMotion shared(kWindow, {});
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    shared.compare({window(next), window(next + 1), window(next + 2)});
+    next += 3;
+  }
+}
+BENCHMARK(part_shared_motion)->Unit(benchmark::kMicrosecond);
 
 void part_emd(benchmark::State& state) {
   core::Emd emd(kWindow);

@@ -50,8 +50,9 @@ class KalmanBank {
   void use(const JointModel& model) noexcept;
   /// Variance of the sensor's noise, unit^2, as known before there is a model; 0 (at first): it is guessed. Used until the first model, and
   /// again after reset().
-  void bound_start(double variance) noexcept { start_.bound_guess(variance); }
   void expect_noise(double variance) noexcept { start_.expect_noise(variance); }
+  /// Most that a guess before the first model may be, unit^2, until reset(). For what the sensor's other axes tell.
+  void bound_start(double variance) noexcept { start_.bound_guess(variance); }
   /// Takes z[t].
   BankEstimates step(double sample) noexcept;
   /// x[t-age] given all up to z[t], 0 <= age <= lag.

@@ -32,7 +32,7 @@ constexpr double kMotion = 2.0;
 /// Source: docs/decisions/0007, "What a model at rest is off by".
 constexpr double kModelError = 1.04;
 constexpr std::size_t kQuietest = 3;
-/// What was found in that way holds for as long as they are within this, as bands of noise stay: those of a road were alike by chance.
+/// What bands that are alike (kAlikeBands) have shown holds for as long as they are within this, as bands of noise stay: those of a road were alike by chance.
 constexpr double kStillAlike = 1.6;
 /// Roads are alike in so many bands for a moment, and then shake more; noise stays. So it must have lasted for so many windows' lengths for each unit
 /// of ln(level), up to this level, while these bands are no further than this above the least of late; or nearly all bands agree. What speaks for it is

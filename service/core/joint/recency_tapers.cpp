@@ -41,9 +41,7 @@ void RecencyTapers::spectrum(std::span<const double> x, std::span<double> power)
   prepare(x.size());
   std::ranges::fill(power, 0.0);
   for (std::size_t k = 0; k < tapers_; ++k) {
-    const auto product = tapered(x, k);
-    std::fill(work_.begin() + static_cast<std::ptrdiff_t>(product.size()), work_.end(), 0.0);
-    transform_.forward(work_, transformed_);
+    transform(x, k, transformed_);
     for (std::size_t bin = 0; bin < power.size(); ++bin)
       power[bin] += std::norm(transformed_[bin]) / static_cast<double>(tapers_);
   }
@@ -72,14 +70,12 @@ void RecencyTapers::prewhitened_transforms(std::span<const double> x,
   assert(transforms.size() == tapers_ * bins());
   const double c = prewhiten(x);
   for (std::size_t k = 0; k < tapers_; ++k) {
-    const auto product = tapered(std::span(whitened_).first(x.size()), k);
-    std::fill(work_.begin() + static_cast<std::ptrdiff_t>(product.size()), work_.end(), 0.0);
-    const auto transform = transforms.subspan(k * bins(), bins());
-    transform_.forward(work_, transform);
-    for (std::size_t bin = 0; bin < transform.size(); ++bin) {
+    const auto made = transforms.subspan(k * bins(), bins());
+    transform(std::span(whitened_).first(x.size()), k, made);
+    for (std::size_t bin = 0; bin < made.size(); ++bin) {
       const double half = half_sines_[bin];
-      transform[bin] /= std::complex<double>(1.0 - c + 2.0 * c * half,
-                                             2.0 * c * std::sqrt(std::max(half - half * half, 0.0)));
+      made[bin] /= std::complex<double>(1.0 - c + 2.0 * c * half,
+                                        2.0 * c * std::sqrt(std::max(half - half * half, 0.0)));
     }
   }
 }
@@ -130,6 +126,13 @@ void RecencyTapers::prepare(std::size_t samples) noexcept {
 
 std::span<const double> RecencyTapers::taper(std::size_t k) const noexcept {
   return {table_.data() + k * max_samples_, samples_};
+}
+
+void RecencyTapers::transform(std::span<const double> x, std::size_t k,
+                              std::span<std::complex<double>> out) noexcept {
+  const auto product = tapered(x, k);
+  std::fill(work_.begin() + static_cast<std::ptrdiff_t>(product.size()), work_.end(), 0.0);
+  transform_.forward(work_, out);
 }
 
 std::span<double> RecencyTapers::tapered(std::span<const double> x, std::size_t k) noexcept {

@@ -55,6 +55,7 @@ class RecencyTapers {
   void prepare(std::size_t samples) noexcept;
   [[nodiscard]] std::span<const double> taper(std::size_t k) const noexcept;
   [[nodiscard]] double prewhiten(std::span<const double> x) noexcept;
+  void transform(std::span<const double> x, std::size_t k, std::span<std::complex<double>> out) noexcept;
   [[nodiscard]] std::span<double> tapered(std::span<const double> x, std::size_t k) noexcept;
 
   std::size_t max_samples_;

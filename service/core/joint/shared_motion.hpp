@@ -1,4 +1,4 @@
-/// What the axes of a sensor have in common. Internal to core/joint.
+/// What the axes of a sensor have in common.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ class SharedMotion {
   /// @param axes windows of one time, of one length, as JointFit::fit() takes them
   void compare(const std::array<std::span<const double>, kSensorAxes>& axes) noexcept;
 
-  /// How much of the power of each band no other axis shares, in the mean 1 where there is nothing but noise. @pre compare()
+  /// How much of the power of each band no other axis shares, in the mean 1 where there is nothing but noise. 1 before compare().
   [[nodiscard]] const BandPower& own(std::size_t axis) const noexcept { return own_[axis]; }
 
  private:

@@ -11,7 +11,7 @@
 
 namespace gyrod::core {
 
-/// Where all bands are beyond that, and so many of the quietest no further apart than this, these hold noise: roads differ by more.
+/// Where all bands are louder than believed, and so many of the quietest no further apart than this, these hold noise: roads differ by more.
 /// Source: docs/decisions/0007, "A level that is far too low".
 inline constexpr std::size_t kAlikeBands = 4;
 inline constexpr double kAlike = 1.25;

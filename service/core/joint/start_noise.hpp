@@ -12,7 +12,7 @@ namespace gyrod::core {
 /// Fourth differences of white noise have 70 times its variance, and of slow motion hardly any; shaking they make larger. So those of each axis are
 /// regressed on those of the two others: what is left is still no less than the axis's own noise, and of a body that shakes far less than all.
 /// And the axes of a sensor have noise of a size. Until the first model, where nothing else is known.
-/// A plain value; allocates nothing. Source: docs/joint.md, "The first samples".
+/// A plain value; allocates nothing. Source: docs/joint.md, "Before the first model".
 class StartNoise {
  public:
   void reset() noexcept { *this = {}; }
@@ -28,9 +28,5 @@ class StartNoise {
   CrossPower power_;  ///< of fourth differences
   std::uint64_t samples_ = 0;
 };
-
-/// The axes of a gyro have noise of a size: an axis that seems to have more than this, in variance, than the quietest, shakes. At rest
-/// they differ by 1.5 (ADIS16405) to 2.2 (MPU6050).
-inline constexpr double kMostOfQuietest = 2.0;
 
 }  // namespace gyrod::core

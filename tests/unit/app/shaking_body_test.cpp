@@ -50,7 +50,7 @@ TEST(ShakingBody, IsKeptByAnEngineThatKnowsNothingOfTheNoise) {
     EXPECT_LT(over_raw(kind, 200, kShaken), 1.02);
 }
 
-// From the fifteenth sample on axes are compared, from the first model on by bands.
+// From the twelfth sample on axes are compared, from the first model on by bands.
 TEST(ShakingBody, IsKeptBeforeTheFirstModel) {
   for (const auto kind : {app::EstimateKind::kDenoised, app::EstimateKind::kRealtime}) {
     EXPECT_LT(over_raw(kind, 20, 64), 2.5);
