@@ -1,5 +1,8 @@
 #include "app/evaluated_methods.hpp"
 
+#include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "app/angle_units.hpp"
@@ -36,12 +39,17 @@ core::Method two_speed_method(const std::string& name, const MethodContext& cont
   run.max_signal_hz = context.settings.denoise.max_signal_hz;
   run.lag_samples = context.lag_samples;
   run.realtime = answers_at_once(name);
-  run.noise = context.noise;
-  const auto estimate = [run, learns = context.learns_itself](std::span<const double> noisy_dps) {
-    if (!learns) return joint_contender(run, noisy_dps);
+  if (context.sensor) run.noise = context.sensor->noise;
+  run.noise[context.axis] = context.noise;
+  const auto estimate = [run, axis = context.axis, sensor = context.sensor,
+                         learns = context.learns_itself](std::span<const double> noisy_dps) {
+    std::array<std::span<const double>, stream::kAxes> axes;
+    if (sensor) std::ranges::copy(sensor->noisy_dps, axes.begin());
+    axes[axis] = noisy_dps;
+    if (!learns) return joint_contender(run, axis, axes);
     JointRun own = run;
-    own.noise = learned_at_rest({noisy_dps, {}, {}}, run.sample_rate_hz)[0];
-    return joint_contender(own, noisy_dps);
+    own.noise[axis] = learned_at_rest({noisy_dps, {}, {}}, run.sample_rate_hz)[0];
+    return joint_contender(own, axis, axes);
   };
   return {name, run.realtime ? 0 : context.lag_samples, estimate};
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/noise_course.hpp"
+#include "app/sensor_axes.hpp"
 #include "core/evaluation/contender.hpp"
 #include "settings/settings.hpp"
 
@@ -18,6 +20,9 @@ struct MethodContext {
   double rate_hz = 0.0;
   NoiseCourse noise;           ///< the sensor's, deg/s, for takes_noise_model(); nothing: unknown
   bool learns_itself = false;  ///< instead of that: what each run shows at rest, by the one axis that it has
+  std::size_t axis = 0;        ///< that runs are of
+  /// What the sensor measures on its other axes, on runs of equal length; null: not known.
+  std::shared_ptr<const SensorAxes> sensor = nullptr;
 };
 
 /// What --methods takes: "direct", "emd", "acf-emd", "improved"; "joint", the two-speed estimator with a lag, and "realtime", its answers at

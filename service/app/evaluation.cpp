@@ -155,7 +155,8 @@ class RowJudge {
  private:
   [[nodiscard]] std::size_t own_lag() const noexcept { return options_.settings.engine.lag_samples; }
   [[nodiscard]] core::Method method(const std::string& name, std::size_t lag) const {
-    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.noise.course});
+    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.noise.course, false,
+                                   axis_index(row_.axis), row_.sensor});
   }
   /// For runs that are no part of the record: where rest tells the noise, their own rest does.
   [[nodiscard]] core::Method method_elsewhere(const std::string& name) const {

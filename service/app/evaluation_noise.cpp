@@ -6,6 +6,7 @@
 #include "app/angle_units.hpp"
 #include "app/calibration_choice.hpp"
 #include "app/offline_denoiser.hpp"
+#include "app/sensor_axes.hpp"
 #include "core/noise/noise_units.hpp"
 #include "core/noise/still_noise.hpp"
 #include "report/json.hpp"
@@ -15,8 +16,6 @@ namespace gyrod::app {
 namespace {
 
 using settings::NoiseSource;
-
-std::size_t sensor_axis(const std::string& axis) { return static_cast<std::size_t>(axis.back() - 'x'); }
 
 RowNoise known_by(NoiseKnownBy by, const core::NoiseModel& model) {
   return {by, known_throughout(model), 0, false};
@@ -28,7 +27,7 @@ core::NoiseModel calibrated_model(const settings::NoiseCalibration& calibration,
   stream::StandstillOptions options;
   options.sample_rate_hz = rate_hz;
   options.calibrated = stream::CalibratedNoise{calibration.sample_rate_hz, calibration.models};
-  return core::scaled(stream::noise_beforehand(options).axis[sensor_axis(axis)], kDegPerRad);
+  return core::scaled(stream::noise_beforehand(options).axis[axis_index(axis)], kDegPerRad);
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ std::vector<std::string> calibration_cautions(const NoiseKnowledge& known,
                        " Hz only its mean density is kept, as white noise, as in the daemon");
   }
   for (const std::string& axis : axes) {
-    if (core::is_usable(calibration.models[sensor_axis(axis)])) continue;
+    if (core::is_usable(calibration.models[axis_index(axis)])) continue;
     cautions.push_back(known.calibration_file + ": has no axis " + axis.substr(axis.size() - 1) +
                        ", which is given the strongest of the others, as in the daemon");
   }

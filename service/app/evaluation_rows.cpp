@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "app/angle_units.hpp"
+#include "app/evaluation_series.hpp"
 #include "app/evaluation_truth.hpp"
-#include "core/signal/interpolation.hpp"
-#include "core/signal/moments.hpp"
+#include "core/joint/noise_tracker.hpp"
 #include "files/file_error.hpp"
 #include "report/json.hpp"
 #include "report/stillness.hpp"
@@ -19,8 +20,6 @@ namespace gyrod::app {
 namespace {
 
 constexpr std::size_t kFewestOfARow = 100;
-
-std::size_t index_of(const std::string& axis) { return static_cast<std::size_t>(axis.back() - 'x'); }
 
 files::RecordOptions record_options(const EvaluationInput& input) {
   files::RecordOptions options;
@@ -36,7 +35,7 @@ files::RecordOptions record_options(const EvaluationInput& input) {
 
 /// Empty where the record does not have the axis.
 std::vector<double> gyro_rates(const files::Record& record, const std::string& axis) {
-  std::vector<double> rates = record.gyro_radps[index_of(axis)];
+  std::vector<double> rates = record.gyro_radps[axis_index(axis)];
   const double sign = axis.front() == '-' ? -kDegPerRad : kDegPerRad;
   for (double& value : rates) value *= sign;
   return rates;
@@ -46,56 +45,6 @@ std::vector<double> gyro_column(const files::Record& record, const std::string& 
   std::vector<double> rates = gyro_rates(record, axis);
   if (rates.empty()) throw files::FileError(record.name + ": has no column gyro_" + axis.back() + "_UNIT");
   return rates;
-}
-
-/// NaN between two numbers becomes a straight line; NaN at an end the nearest number.
-std::vector<double> with_gaps_bridged(std::vector<double> values) {
-  const auto known = [](double value) { return std::isfinite(value); };
-  auto next = std::ranges::find_if(values, known);
-  std::fill(values.begin(), next, *next);
-  while (next != values.end()) {
-    const auto last = next;
-    next = std::find_if(last + 1, values.end(), known);
-    const auto lost = static_cast<std::size_t>(next - last) - 1;
-    const double right = next == values.end() ? *last : *next;
-    for (std::size_t step = 0; step < lost; ++step) {
-      *(last + 1 + static_cast<std::ptrdiff_t>(step)) = core::bridge(*last, right, step, lost);
-    }
-  }
-  return values;
-}
-
-std::vector<double> composite(std::vector<double> truth, const std::vector<double>& noise) {
-  std::vector<double> noisy = with_gaps_bridged(std::move(truth));
-  for (std::size_t n = 0; n < noisy.size(); ++n) noisy[n] += noise[n];
-  return noisy;
-}
-
-std::vector<double> without_mean(std::vector<double> values) {
-  const double mean = core::mean(values);
-  for (double& value : values) value -= mean;
-  return values;
-}
-
-/// A stretch of a recording, from its beginning again where it ends.
-std::vector<double> stretch(std::span<const double> all, std::size_t start, std::size_t samples) {
-  std::vector<double> part(samples);
-  for (std::size_t n = 0; n < samples; ++n) part[n] = all[(start + n) % all.size()];
-  return part;
-}
-
-/// What stretch() does not take: before it and behind it.
-std::vector<std::span<const double>> spare(std::span<const double> all, std::size_t start,
-                                           std::size_t samples) {
-  const std::size_t end = start + samples;
-  if (end <= all.size()) return {all.first(start), all.subspan(end)};
-  const std::size_t again = std::min(end - all.size(), start);
-  return {all.subspan(again, start - again)};
-}
-
-std::vector<double> scaled(std::vector<double> values, double scale) {
-  for (double& value : values) value *= scale;
-  return values;
 }
 
 files::Record load_noise(const EvaluationInput& input, double rate_hz) {
@@ -135,6 +84,19 @@ std::string losses_of(const files::Record::Counts& counts) {
   return text;
 }
 
+/// Whether not all is known of a row's noise from its first window on: for as long as that is so, the daemon asks the sensor's other axes.
+bool asks_other_axes(const EvaluationRow& row) {
+  return core::belief_in(known_at(row.noise.course, 1)) != core::NoiseBelief::kColour;
+}
+
+/// Whether axes of the composite are given noise of one axis.
+bool shares_noise(const std::array<std::string, 3>& noise_axes) {
+  const auto is_same = [&](std::size_t i, std::size_t j) {
+    return noise_axes[i].back() == noise_axes[j].back();
+  };
+  return is_same(0, 1) || is_same(1, 2) || is_same(2, 0);
+}
+
 class RowMaker {
  public:
   explicit RowMaker(const EvaluationInput& input)
@@ -163,7 +125,7 @@ class RowMaker {
     if (input_.noise.empty()) {
       tell_of_calibration({"x", "y", "z"});
       for (const std::string& axis : input_.axes) all_.rows.push_back(measured_row(axis));
-      learn(0, 1.0, nullptr);
+      look_beside(0, 1.0, nullptr);
       return std::move(all_);
     }
     const files::Record noise = load_noise(input_, record_.sample_rate_hz);
@@ -175,7 +137,7 @@ class RowMaker {
     for (const double scale : input_.noise_scales) {
       const std::size_t first = all_.rows.size();
       for (const std::string& axis : input_.axes) all_.rows.push_back(composite_row(axis, scale, noise));
-      learn(first, scale, &noise);
+      look_beside(first, scale, &noise);
     }
     return std::move(all_);
   }
@@ -183,7 +145,7 @@ class RowMaker {
  private:
   [[nodiscard]] std::vector<double> truth(const std::string& axis) const {
     if (input_.signal_is_truth) return gyro_column(record_, axis);
-    return truth_rates(record_, prefix_, input_.truth_axes[index_of(axis)]);
+    return truth_rates(record_, prefix_, input_.truth_axes[axis_index(axis)]);
   }
 
   [[nodiscard]] EvaluationRow measured_row(const std::string& axis) const {
@@ -200,14 +162,14 @@ class RowMaker {
 
   [[nodiscard]] EvaluationRow composite_row(const std::string& axis, double scale,
                                             const files::Record& noise) const {
-    const std::vector<double> all = gyro_column(noise, input_.noise_axes[index_of(axis)]);
+    const std::vector<double> all = gyro_column(noise, input_.noise_axes[axis_index(axis)]);
     EvaluationRow row;
     row.axis = axis;
     row.noise_scale = scale;
     row.truth_dps = truth(axis);
     const std::size_t samples = row.truth_dps.size();
     row.noise_dps = scaled(without_mean(stretch(all, input_.noise_start, samples)), scale);
-    row.noise = told_beforehand(input_.known, input_.noise_axes[index_of(axis)],
+    row.noise = told_beforehand(input_.known, input_.noise_axes[axis_index(axis)],
                                 spare(all, input_.noise_start, samples), scale, record_.sample_rate_hz);
     row.noisy_dps = composite(row.truth_dps, row.noise_dps);
     return row;
@@ -219,32 +181,59 @@ class RowMaker {
     std::vector<double> rates = gyro_rates(record_, axis);
     if (noise == nullptr) return rates;
     if (!input_.signal_is_truth) rates = truth(axis);
-    const std::vector<double> added = gyro_rates(*noise, input_.noise_axes[index_of(axis)]);
+    const std::vector<double> added = gyro_rates(*noise, input_.noise_axes[axis_index(axis)]);
     if (rates.empty() || added.empty()) return {};
     return composite(rates, scaled(without_mean(stretch(added, input_.noise_start, rates.size())), scale));
   }
 
-  /// Rows from `first` on that are not told beforehand: what is at rest on all axes that there are.
-  void learn(std::size_t first, double scale, const files::Record* noise) {
+  /// What is known beforehand of the noise of an axis that is not judged.
+  [[nodiscard]] RowNoise told_beside(const std::string& axis, double scale,
+                                     const files::Record* noise) const {
+    if (noise == nullptr) return told_beforehand(input_.known, axis, {}, 1.0, record_.sample_rate_hz);
+    const std::string& added = input_.noise_axes[axis_index(axis)];
+    const std::vector<double> all = gyro_rates(*noise, added);
+    if (all.empty()) return {};
+    return told_beforehand(input_.known, added, spare(all, input_.noise_start, record_.size()), scale,
+                           record_.sample_rate_hz);
+  }
+
+  /// For rows from `first` on, of one scale, whose noise is not known in full beforehand: what is at rest on all axes that there are, and what the
+  /// sensor measures on each.
+  void look_beside(std::size_t first, double scale, const files::Record* noise) {
     const std::span<EvaluationRow> rows = std::span(all_.rows).subspan(first);
-    if (std::ranges::none_of(rows, [](const EvaluationRow& row) { return row.noise.learns; })) return;
-    std::array<std::vector<double>, 3> others;
-    std::array<std::span<const double>, 3> rates;
+    if (std::ranges::none_of(rows, asks_other_axes)) return;
+    const auto sensor = std::make_shared<SensorAxes>();
+    std::array<bool, 3> learns{};
     for (const std::string axis : {"x", "y", "z"}) {
-      const std::size_t i = index_of(axis);
+      const std::size_t i = axis_index(axis);
       const auto judged = std::ranges::find(rows, axis, &EvaluationRow::axis);
-      if (judged == rows.end()) others[i] = beside(axis, scale, noise);
-      rates[i] = judged == rows.end() ? others[i] : judged->noisy_dps;
+      const RowNoise told = judged == rows.end() ? told_beside(axis, scale, noise) : judged->noise;
+      sensor->noisy_dps[i] = judged == rows.end() ? beside(axis, scale, noise) : judged->noisy_dps;
+      sensor->noise[i] = told.course;
+      learns[i] = told.learns;
     }
-    auto courses = learned_at_rest(rates, record_.sample_rate_hz);
+    learn(rows, learns, *sensor);
+    all_.judged_alone = noise != nullptr && shares_noise(input_.noise_axes);
+    if (all_.judged_alone) return;
+    for (EvaluationRow& row : rows) row.sensor = sensor;
+  }
+
+  void learn(std::span<EvaluationRow> rows, const std::array<bool, 3>& learns, SensorAxes& sensor) const {
+    if (std::ranges::none_of(learns, std::identity{})) return;
+    std::array<std::span<const double>, 3> rates;
+    std::ranges::copy(sensor.noisy_dps, rates.begin());
+    const auto courses = learned_at_rest(rates, record_.sample_rate_hz);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (learns[i]) sensor.noise[i] = courses[i];
+    }
     for (EvaluationRow& row : rows) {
-      if (row.noise.learns) add_learned(courses[index_of(row.axis)], row.noise);
+      if (row.noise.learns) add_learned(courses[axis_index(row.axis)], row.noise);
     }
   }
 
   void tell_of_calibration(const std::array<std::string, 3>& axes) {
     std::vector<std::string> judged;
-    for (const std::string& axis : input_.axes) judged.push_back(axes[index_of(axis)]);
+    for (const std::string& axis : input_.axes) judged.push_back(axes[axis_index(axis)]);
     for (std::string& caution : calibration_cautions(input_.known, judged, record_.sample_rate_hz))
       all_.cautions.push_back(std::move(caution));
   }
@@ -266,9 +255,9 @@ class RowMaker {
                               report::number_text(all_.rate_hz) + " Hz");
     }
     for (const std::string& axis : input_.axes) {
-      const std::vector<double> rates = gyro_column(noise, input_.noise_axes[index_of(axis)]);
+      const std::vector<double> rates = gyro_column(noise, input_.noise_axes[axis_index(axis)]);
       if (report::stillness(rates, noise.sample_rate_hz).still()) continue;
-      all_.cautions.push_back(noise.name + ": axis " + input_.noise_axes[index_of(axis)] +
+      all_.cautions.push_back(noise.name + ": axis " + input_.noise_axes[axis_index(axis)] +
                               " moves; its motion counts as noise");
     }
     if (input_.noise_start + record_.size() <= noise.size()) return;

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/evaluation_noise.hpp"
+#include "app/sensor_axes.hpp"
 #include "files/record.hpp"
 
 namespace gyrod::app {
@@ -49,6 +51,8 @@ struct EvaluationRow {
   std::vector<double>
       noise_dps;  ///< finite, mean 0: what is added, or measured minus true, where the truth is lost by straight lines
   RowNoise noise;  ///< what methods that take a model of it are told
+  /// All that the sensor measures, what it is told in `noise` included; null where the noise is known, or shared by its axes.
+  std::shared_ptr<const SensorAxes> sensor;
 };
 
 struct EvaluationRows {
@@ -65,6 +69,8 @@ struct EvaluationRows {
   std::size_t spare_samples = 0;  ///< of the noise, that are not added
   double rate_hz = 0.0;
   std::size_t samples = 0;
+  bool judged_alone =
+      false;  ///< axes are not compared, as they are given the same noise, where that is not known in full
   std::vector<EvaluationRow> rows;  ///< all axes of the first scale, then of the next
   std::vector<std::string> cautions;
 };

@@ -8,12 +8,16 @@
 #include <vector>
 
 #include "core/denoise/window_report.hpp"
-#include "core/joint/joint_fit.hpp"
-#include "core/joint/kalman_bank.hpp"
+#include "core/joint/explained_share.hpp"
+#include "core/joint/noise_tracker.hpp"
+#include "core/joint/start_noise.hpp"
 #include "stream/hop_schedule.hpp"
+#include "stream/joint_method.hpp"
 
 namespace gyrod::app {
 namespace {
+
+using Axes = std::array<std::span<const double>, stream::kAxes>;
 
 /// Estimates and claimed deviations, each at the sample that it is of.
 class Estimates {
@@ -23,7 +27,7 @@ class Estimates {
     contender.std.emplace(samples, std::numeric_limits<double>::quiet_NaN());
   }
 
-  void put(std::size_t t, const core::BankEstimate& estimate) {
+  void put(std::size_t t, const stream::Estimate& estimate) {
     contender.estimate[t] = estimate.rate;
     (*contender.std)[t] = std::sqrt(estimate.variance);
   }
@@ -31,81 +35,128 @@ class Estimates {
   core::Contender contender;
 };
 
+/// What the axes have at a sample; what is not measured is 0, as in the daemon.
+std::array<double, stream::kAxes> sample_at(const Axes& noisy, std::size_t t) {
+  std::array<double, stream::kAxes> sample{};
+  for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+    if (!noisy[axis].empty()) sample[axis] = noisy[axis][t];
+  }
+  return sample;
+}
+
 /// The windows of a record, and the models of each: what the stream's intake and its workers do.
 class SlowLoop {
  public:
-  explicit SlowLoop(const JointRun& run)
+  /// @param run, noisy outlive the loop
+  SlowLoop(const JointRun& run, std::size_t axis, const Axes& noisy)
       : run_(run),
+        axis_(axis),
+        noisy_(noisy),
+        factory_(stream::joint_method(run.options, run.max_signal_hz)),
         schedule_({.window = static_cast<stream::Position>(run.window_samples),
                    .hop = static_cast<stream::Position>(run.options.hop_samples),
                    .max_hop = static_cast<stream::Position>(run.options.hop_samples),
                    .lag = 0}) {
-    prepare_fit();
+    for (auto& model : models_) model = factory_.model();
+    unmeasured_.resize(run.window_samples << run.doublings, 0.0);
+    prepare_method();
   }
 
   /// Makes the model that is used from sample `end` on, if one is. @return null where there is none
-  const core::JointModel* model_from(std::size_t end, std::span<const double> noisy) {
+  const stream::Model* model_from(std::size_t end) {
     const auto position = static_cast<stream::Position>(end);
     if (end == 0 || !schedule_.due(position)) return nullptr;
-    const core::JointModel* made = nullptr;
-    if (window_ &&
-        window_->end - window_->begin >= static_cast<stream::Position>(core::JointFit::kMinSamples))
-      made = fit(noisy);
+    const stream::Model* made = nullptr;
+    if (window_ && length() >= method_->min_samples()) made = fit();
     if (schedule_.doublings() < run_.doublings && schedule_.can_double(position)) {
       schedule_.double_windows(position);
-      prepare_fit();
+      prepare_method();
     }
     window_ = schedule_.take(position);
     return made;
   }
 
   [[nodiscard]] std::size_t hop() const noexcept { return static_cast<std::size_t>(schedule_.step()); }
-
- private:
-  void prepare_fit() {
-    core::JointOptions options = run_.options;
-    options.hop_samples = hop();
-    fit_.emplace(static_cast<std::size_t>(schedule_.window()), options);
-    fit_->set_sample_rate(run_.sample_rate_hz);
-    if (run_.max_signal_hz > 0.0 && run_.sample_rate_hz > 0.0)
-      fit_->set_max_signal(run_.max_signal_hz / run_.sample_rate_hz);
+  [[nodiscard]] std::unique_ptr<stream::SampleFilter> filter() const {
+    return factory_.filter(run_.lag_samples);
   }
 
-  const core::JointModel* fit(std::span<const double> noisy) {
+ private:
+  void prepare_method() { method_ = factory_.method(static_cast<std::size_t>(schedule_.window()), hop()); }
+
+  [[nodiscard]] std::size_t length() const noexcept {
+    return static_cast<std::size_t>(window_->end - window_->begin);
+  }
+
+  [[nodiscard]] stream::WindowInput window_of(std::size_t axis) const {
     const auto begin = static_cast<std::size_t>(window_->begin);
-    const auto end = static_cast<std::size_t>(window_->end);
-    fit_->fit(noisy.subspan(begin, end - begin), known_at(run_.noise, end), *model_, report_);
-    return model_.get();
+    const core::NoiseModel noise = known_at(run_.noise[axis], static_cast<std::size_t>(window_->end));
+    return {.axis = axis,
+            .samples = noisy_[axis].empty() ? std::span(unmeasured_).first(length())
+                                            : noisy_[axis].subspan(begin, length()),
+            .sample_rate_hz = run_.sample_rate_hz,
+            .noise_source =
+                core::is_usable(noise) ? stream::NoiseSource::kCalibrated : stream::NoiseSource::kNone,
+            .noise = noise};
+  }
+
+  const stream::Model* fit() {
+    std::array<double, stream::kAxes> noise{};
+    std::array<stream::WindowInput, stream::kAxes> windows;
+    for (std::size_t axis = 0; axis < stream::kAxes; ++axis) noise[axis] = models_[axis]->noise_variance();
+    for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+      windows[axis] = window_of(axis);
+      windows[axis].others_noise = core::least_of_others(noise, axis);
+    }
+    const bool alone = core::belief_in(windows[axis_].noise) == core::NoiseBelief::kColour;
+    if (!alone) method_->compare(windows);
+    for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+      if (axis == axis_ || (!alone && !noisy_[axis].empty()))
+        method_->fit(windows[axis], *models_[axis], report_);
+    }
+    return models_[axis_].get();
   }
 
   const JointRun& run_;
+  std::size_t axis_;
+  const Axes& noisy_;
+  stream::ModelMethodFactory factory_;
   stream::HopSchedule schedule_;
-  std::optional<core::JointFit> fit_;
+  std::unique_ptr<stream::ModelMethod> method_;
+  std::array<std::unique_ptr<stream::Model>, stream::kAxes> models_;
+  std::vector<double> unmeasured_;
   std::optional<stream::WindowJob> window_;  ///< the last one, whose models are still to come
-  std::unique_ptr<core::JointModel> model_ = std::make_unique<core::JointModel>();
   core::WindowReport report_;
 };
 
 }  // namespace
 
-core::Contender joint_contender(const JointRun& run, std::span<const double> noisy) {
-  SlowLoop slow_loop(run);
-  core::KalmanBank bank(run.options, run.lag_samples);
-  const core::NoiseModel first = known_at(run.noise, 1);
-  if (core::is_usable(first)) bank.expect_noise(core::noise_variance(first));
-  Estimates estimates(noisy.size());
-  for (std::size_t t = 0; t < noisy.size(); ++t) {
-    if (const core::JointModel* model = slow_loop.model_from(t, noisy)) bank.use(*model);
-    const core::BankEstimates both = bank.step(noisy[t]);
+core::Contender joint_contender(const JointRun& run, std::size_t axis, const Axes& noisy) {
+  const std::size_t samples = noisy[axis].size();
+  SlowLoop slow_loop(run, axis, noisy);
+  const std::unique_ptr<stream::SampleFilter> filter = slow_loop.filter();
+  filter->expect_noise(known_at(run.noise[axis], 1));
+  Estimates estimates(samples);
+  core::StartNoise start_noise;
+  bool has_model = false;
+  for (std::size_t t = 0; t < samples; ++t) {
+    if (const stream::Model* model = slow_loop.model_from(t)) {
+      filter->use(*model);
+      has_model = true;
+    }
+    if (!has_model) {
+      start_noise.step(sample_at(noisy, t));
+      filter->bound_noise(start_noise.most(axis));
+    }
+    const stream::Estimates both = filter->step(noisy[axis][t]);
     if (run.realtime) {
       estimates.put(t, both.realtime);
     } else if (t >= run.lag_samples) {
       estimates.put(t - run.lag_samples, both.denoised);
     }
   }
-  for (std::size_t age = 0; !run.realtime && age < std::min(run.lag_samples, noisy.size()); ++age) {
-    estimates.put(noisy.size() - 1 - age, bank.held(age));
-  }
+  for (std::size_t age = 0; !run.realtime && age < std::min(run.lag_samples, samples); ++age)
+    estimates.put(samples - 1 - age, filter->held(age));
   const std::size_t lag = run.realtime ? 0 : run.lag_samples;
   estimates.contender.name = run.realtime ? "realtime" : "joint";
   estimates.contender.lag_samples = lag;

@@ -6,18 +6,10 @@
 #include <utility>
 #include <variant>
 
+#include "core/joint/explained_share.hpp"
+
 namespace gyrod::stream {
 namespace {
-
-/// The least variance above 0 of the axes but this one; 0 where there is none.
-double least_of_others(const std::array<double, kAxes>& variance, std::size_t axis) noexcept {
-  double least = 0.0;
-  for (std::size_t other = 0; other < kAxes; ++other) {
-    if (other == axis || !(variance[other] > 0.0)) continue;
-    least = least > 0.0 ? std::min(least, variance[other]) : variance[other];
-  }
-  return least;
-}
 
 /// One axis of the window, in `room`.
 WindowInput input(std::span<double> room, const Channel& channel, const WindowJob& job,
@@ -111,7 +103,7 @@ void Workbench::fit(ModelTool& tool, Channel& channel, const WindowJob& job) noe
   const std::size_t room = tool.window.size() / kAxes;
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     windows[axis] = input(std::span(tool.window).subspan(axis * room, room), channel, job, axis);
-    windows[axis].others_noise = least_of_others(noise, axis);
+    windows[axis].others_noise = core::least_of_others(noise, axis);
   }
   tool.method->compare(windows);
   for (std::size_t axis = 0; axis < kAxes; ++axis)

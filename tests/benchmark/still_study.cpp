@@ -67,9 +67,9 @@ std::array<StillAxis, 3> load(char imu) {
 std::array<Estimator, 3> estimators(const core::NoiseModel& noise, const settings::Settings& settings) {
   const auto joint = [noise](bool realtime) {
     app::JointRun run;
-    run.noise = app::known_throughout(noise);
+    run.noise[0] = app::known_throughout(noise);
     run.realtime = realtime;
-    return [run](std::span<const double> dps) { return app::joint_contender(run, dps).estimate; };
+    return [run](std::span<const double> dps) { return app::joint_contender(run, 0, {dps}).estimate; };
   };
   const core::Method paper =
       app::evaluated_method("improved", {settings, settings.engine.lag_samples, kRateHz, {}});

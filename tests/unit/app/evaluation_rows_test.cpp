@@ -1,6 +1,7 @@
 // What an evaluation is made from: what is left out of two files, and what is said of it.
 #include "app/evaluation_rows.hpp"
 
+#include <array>
 #include <functional>
 #include <string>
 
@@ -58,11 +59,12 @@ class EvaluationRowsTest : public ::testing::Test {
 
   ScratchFolder folder_;
 
- private:
   void write(const std::string& name, std::string text, const Row& row, int samples) const {
     for (int n = 0; n < samples; ++n) text += row(n);
     folder_.write(name, text);
   }
+
+ private:
   Signal noise_ = white_noise(kSamples, 5);
 };
 
@@ -157,6 +159,97 @@ TEST_F(EvaluationRowsTest, KnowTheNoiseFromWhatLiesBetweenWhereItBeginsAgain) {
   EXPECT_EQ(app::evaluation_rows(given).rows[0].noise.by, app::NoiseKnownBy::kNothing);
   write_signal();
   EXPECT_EQ(app::evaluation_rows(given).spare_samples, 0U);
+}
+
+/// A sensor's three axes, deg/s: motion n of axis i in the signal, noise of each axis of its own.
+class EvaluationRowsOfThreeAxes : public EvaluationRowsTest {
+ protected:
+  EvaluationRowsOfThreeAxes() {
+    const std::string header = "timestamp_s,gyro_x_dps,gyro_y_dps,gyro_z_dps\n";
+    write(
+        "in.csv", header,
+        [](int n) {
+          return row_of(n, {0.001 * n, 0.002 * n, 0.003 * n});
+        },
+        kSamples);
+    write(
+        "still.csv", header, [this](int n) { return row_of(n, noise_at(n)); }, kSamples);
+    given_ = composite();
+    given_.signal_is_truth = true;
+    given_.axes = {"x", "z"};
+    given_.known.source = settings::NoiseSource::kImf1;
+  }
+
+  static std::string row_of(int n, const std::array<double, 3>& rates) {
+    std::string row = std::to_string(0.01 * n);
+    for (const double rate : rates) row += "," + std::to_string(rate);
+    return row + "\n";
+  }
+  [[nodiscard]] std::array<double, 3> noise_at(int n) const {
+    std::array<double, 3> noise{};
+    for (std::size_t axis = 0; axis < 3; ++axis) noise[axis] = axes_[axis][static_cast<std::size_t>(n)];
+    return noise;
+  }
+
+  app::EvaluationInput given_;
+
+ private:
+  std::array<Signal, 3> axes_{white_noise(kSamples, 11), white_noise(kSamples, 12),
+                              white_noise(kSamples, 13)};
+};
+
+// What is not judged is as loud as it would be: y has its own signal, and three times its own noise.
+TEST_F(EvaluationRowsOfThreeAxes, HaveAllThatTheSensorMeasuresWhereNothingIsKnown) {
+  given_.noise_scales = {3.0};
+  const app::EvaluationRows all = app::evaluation_rows(given_);
+  ASSERT_EQ(all.rows.size(), 2U);
+  ASSERT_NE(all.rows[0].sensor, nullptr);
+  EXPECT_EQ(all.rows[0].sensor, all.rows[1].sensor);
+  const app::SensorAxes& sensor = *all.rows[0].sensor;
+  EXPECT_EQ(sensor.noisy_dps[0], all.rows[0].noisy_dps);
+  EXPECT_EQ(sensor.noisy_dps[2], all.rows[1].noisy_dps);
+  double mean = 0.0;
+  for (int n = 0; n < kSamples; ++n) mean += noise_at(n)[1] / kSamples;
+  for (const int n : {0, 1000, kSamples - 1}) {
+    EXPECT_NEAR(sensor.noisy_dps[1][static_cast<std::size_t>(n)], 0.002 * n + 3.0 * (noise_at(n)[1] - mean),
+                1e-5);
+  }
+  EXPECT_FALSE(all.judged_alone);
+}
+
+TEST_F(EvaluationRowsOfThreeAxes, HaveWhatIsToldOfAxesThatAreNotJudged) {
+  settings::NoiseCalibration level;
+  level.sample_rate_hz = 100.0;
+  level.models.fill(core::white_noise(1e-4));
+  level.models[1] = core::white_noise(4e-4);
+  given_.known = {settings::NoiseSource::kCalibrated, "cal.json", level};
+  const app::EvaluationRows all = app::evaluation_rows(given_);
+  ASSERT_NE(all.rows[0].sensor, nullptr) << "a level alone is not all that there is to know";
+  const auto variance = [&](std::size_t axis) {
+    return core::noise_variance(app::known_at(all.rows[0].sensor->noise[axis], 1));
+  };
+  EXPECT_GT(variance(0), 0.0);
+  EXPECT_NEAR(variance(1), 4.0 * variance(0), 1e-9);
+}
+
+TEST_F(EvaluationRowsOfThreeAxes, NeedNoOtherAxisWhereTheNoiseIsKnown) {
+  settings::NoiseCalibration colour;
+  colour.sample_rate_hz = 100.0;
+  core::NoiseModel model = core::white_noise(1e-4);
+  model.colour_variance = 1e-5;
+  model.colour_order = 1;
+  model.colour[0] = 0.5;
+  colour.models.fill(model);
+  given_.known = {settings::NoiseSource::kCalibrated, "cal.json", colour};
+  for (const app::EvaluationRow& row : app::evaluation_rows(given_).rows) EXPECT_EQ(row.sensor, nullptr);
+}
+
+// Noise that axes share would be taken for motion.
+TEST_F(EvaluationRowsOfThreeAxes, AreJudgedAloneWhereTheyAreGivenTheSameNoise) {
+  given_.noise_axes = {"x", "y", "-y"};
+  const app::EvaluationRows all = app::evaluation_rows(given_);
+  EXPECT_TRUE(all.judged_alone);
+  for (const app::EvaluationRow& row : all.rows) EXPECT_EQ(row.sensor, nullptr);
 }
 
 TEST_F(EvaluationRowsTest, DoNotBeginBeyondTheNoise) {

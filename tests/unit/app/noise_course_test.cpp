@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -90,18 +91,18 @@ double worst_difference(const Signal& published_radps, const char* name, const a
   return worst;
 }
 
-// Before anything is known the daemon also bounds the noise by what the axes share and by the quietest. What came of that is forgotten by the second
-// half of the rest, but for the slow corrections' memory of half a minute.
 TEST(LearnedAtRest, IsUsedFromTheSameSampleOnAsTheDaemonDoes) {
   const settings::Settings settings;
   const std::array<Signal, 3> rates = {rest_then_swing(1), rest_then_swing(2), rest_then_swing(3)};
-  const auto course = app::learned_at_rest({rates[0], rates[1], rates[2]}, kCourseRateHz)[0];
-  const app::MethodContext learned{settings, settings.engine.lag_samples, kCourseRateHz, course};
+  const auto courses = app::learned_at_rest({rates[0], rates[1], rates[2]}, kCourseRateHz);
+  const auto sensor = std::make_shared<app::SensorAxes>(app::SensorAxes{rates, courses});
+  app::MethodContext learned{settings, settings.engine.lag_samples, kCourseRateHz, courses[0]};
+  learned.sensor = sensor;
   const app::MethodContext guessing{settings, settings.engine.lag_samples, kCourseRateHz, {}};
   const Signal denoised = published(app::EstimateKind::kDenoised, rates);
   const Signal realtime = published(app::EstimateKind::kRealtime, rates);
-  EXPECT_LT(worst_difference(denoised, "joint", learned, rates[0]), 1e-3);
-  EXPECT_LT(worst_difference(realtime, "realtime", learned, rates[0]), 1e-3);
+  EXPECT_LT(worst_difference(denoised, "joint", learned, rates[0]), 1e-5);
+  EXPECT_LT(worst_difference(realtime, "realtime", learned, rates[0]), 1e-5);
   EXPECT_GT(worst_difference(denoised, "joint", guessing, rates[0]), 0.05);
 }
 
