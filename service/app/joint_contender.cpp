@@ -111,8 +111,11 @@ class SlowLoop {
     const bool alone = core::belief_in(windows[axis_].noise) == core::NoiseBelief::kColour;
     if (!alone) method_->compare(windows);
     for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
-      if (axis == axis_ || (!alone && !noisy_[axis].empty()))
+      if (axis == axis_) {
         method_->fit(windows[axis], *models_[axis], report_);
+      } else if (!alone && !noisy_[axis].empty()) {
+        method_->follow_noise(windows[axis], *models_[axis]);
+      }
     }
     return models_[axis_].get();
   }

@@ -63,7 +63,21 @@ class JointMethod final : public ModelMethod {
   }
 
   void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept override {
-    const bool known = window.noise_source != NoiseSource::kNone;
+    prepare(window, model);
+    fit_.fit(window.samples, known_noise(window), static_cast<JointState&>(model).joint, report);
+  }
+
+  void follow_noise(const WindowInput& window, Model& model) noexcept override {
+    prepare(window, model);
+    fit_.follow_noise(window.samples, known_noise(window), static_cast<JointState&>(model).joint);
+  }
+
+ private:
+  static core::NoiseModel known_noise(const WindowInput& window) noexcept {
+    return window.noise_source != NoiseSource::kNone ? window.noise : core::NoiseModel{};
+  }
+
+  void prepare(const WindowInput& window, Model& model) noexcept {
     const bool limited = max_signal_hz_ > 0.0 && window.sample_rate_hz > 0.0;
     static_cast<JointState&>(model).follow_rate(window.sample_rate_hz);
     fit_.set_sample_rate(window.sample_rate_hz);
@@ -71,11 +85,8 @@ class JointMethod final : public ModelMethod {
                                                   : std::numeric_limits<double>::infinity());
     fit_.set_own(shared_.own(window.axis));
     fit_.set_max_signal(limited ? max_signal_hz_ / window.sample_rate_hz : 1.0);
-    fit_.fit(window.samples, known ? window.noise : core::NoiseModel{}, static_cast<JointState&>(model).joint,
-             report);
   }
 
- private:
   core::JointFit fit_;
   core::SharedMotion shared_;
   double max_signal_hz_;

@@ -118,6 +118,11 @@ class ModelMethod {
   virtual void compare(const std::array<WindowInput, kAxes>& axes) noexcept { static_cast<void>(axes); }
   /// Fits `model`, the axis's own, to one axis of one window.
   virtual void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept = 0;
+  /// Does of that only what Model::noise_variance() needs: for sensors of which one axis alone is asked for.
+  virtual void follow_noise(const WindowInput& window, Model& model) noexcept {
+    static_cast<void>(window);
+    static_cast<void>(model);
+  }
 };
 
 /// Makes the parts of a window method.

@@ -50,19 +50,32 @@ void JointFit::set_sample_rate(double sample_rate_hz) noexcept {
   whittle_.set_shrinkage(scale_.shrinkage(options_.shrinkage));
 }
 
-void JointFit::fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,
-                   WindowReport& report) noexcept {
+/// Mean, spectrum and noise of a window. @return false where it does not vary
+bool JointFit::look_at(std::span<const double> window, const NoiseModel& noise, JointModel& model,
+                       WindowReport& report) noexcept {
   assert(window.size() >= kMinSamples && window.size() <= max_samples_);
   report = {};
   report.window_samples = window.size();
   report.mean = mean(window);
   centred_.resize(window.size());
   for (std::size_t n = 0; n < window.size(); ++n) centred_[n] = window[n] - report.mean;
-  if (std::ranges::all_of(centred_, [](double value) { return value == 0.0; })) return;
+  if (std::ranges::all_of(centred_, [](double value) { return value == 0.0; })) return false;
   knocks_.apply(centred_, options_);
   tapers_.prewhitened_spectrum(centred_, periodogram_);
-  pruned_tapers_.prewhitened_spectrum(centred_, pruned_periodogram_);
   judge_noise(noise, model, report);
+  return true;
+}
+
+void JointFit::follow_noise(std::span<const double> window, const NoiseModel& noise,
+                            JointModel& model) noexcept {
+  WindowReport report;
+  if (look_at(window, noise, model, report) && is_usable(noise_)) model.noise_variance = seen_noise();
+}
+
+void JointFit::fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,
+                   WindowReport& report) noexcept {
+  if (!look_at(window, noise, model, report)) return;
+  pruned_tapers_.prewhitened_spectrum(centred_, pruned_periodogram_);
   const Tone tone = find_motion_tone();
   if (tone.prominence >= kSureTone) {
     report.tone_frequency_cycles = tone.frequency_cycles;

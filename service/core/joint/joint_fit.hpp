@@ -57,7 +57,12 @@ class JointFit {
   void fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,
            WindowReport& report) noexcept;
 
+  /// Takes of a window what fit() would of the noise, and makes no members: all of `model` that fits of other axes ask for.
+  void follow_noise(std::span<const double> window, const NoiseModel& noise, JointModel& model) noexcept;
+
  private:
+  [[nodiscard]] bool look_at(std::span<const double> window, const NoiseModel& noise, JointModel& model,
+                             WindowReport& report) noexcept;
   void judge_noise(const NoiseModel& believed, JointModel& model, WindowReport& report) noexcept;
   [[nodiscard]] Tone find_motion_tone() noexcept;
   void decompose(WindowReport& report) noexcept;

@@ -129,6 +129,28 @@ TEST(JointMethod, TakesNoiseThatIsNotKnownForNoMoreThanTwiceTheQuietestAxiss) {
   }
 }
 
+// Nothing known, bounded by other axes; a level alone; and a colour.
+TEST(JointMethod, FollowsTheNoiseAsItsFitsDo) {
+  for (const core::NoiseModel& noise : {core::NoiseModel{}, core::white_noise(kJointNoise), with_a_line()}) {
+    Axis fitted;
+    Axis followed;
+    for (unsigned seed = 1; seed < 12; ++seed) {
+      const Signal samples = testing::times(joint_window(seed), 1.0 + 0.05 * seed);
+      const WindowInput window{
+          .samples = samples,
+          .sample_rate_hz = 100.0,
+          .noise_source = core::is_usable(noise) ? NoiseSource::kCalibrated : NoiseSource::kNone,
+          .noise = noise,
+          .others_noise = core::is_usable(noise) ? 0.0 : 0.01 * seed};
+      core::WindowReport report;
+      fitted.method->fit(window, *fitted.model, report);
+      followed.method->follow_noise(window, *followed.model);
+      EXPECT_EQ(followed.model->noise_variance(), fitted.model->noise_variance()) << seed;
+    }
+    EXPECT_GT(followed.model->noise_variance(), 0.0);
+  }
+}
+
 // A window in which nothing changes leaves the model as it is, but for what is of another rate. It is so from a tenth of the rate on, however slowly.
 TEST(JointMethod, KnowsNoNoiseOfAnotherRate) {
   const Signal constant(kJointWindow, 0.5);
