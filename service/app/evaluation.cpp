@@ -155,8 +155,12 @@ class RowJudge {
  private:
   [[nodiscard]] std::size_t own_lag() const noexcept { return options_.settings.engine.lag_samples; }
   [[nodiscard]] core::Method method(const std::string& name, std::size_t lag) const {
-    return evaluated_method(name, {options_.settings, lag, rate_hz_, row_.noise.course, false,
-                                   axis_index(row_.axis), row_.sensor});
+    return evaluated_method(name, {.settings = options_.settings,
+                                   .lag_samples = lag,
+                                   .rate_hz = rate_hz_,
+                                   .noise = row_.noise.course,
+                                   .axis = axis_index(row_.axis),
+                                   .sensor = row_.sensor});
   }
   /// For runs that are no part of the record: where rest tells the noise, their own rest does.
   [[nodiscard]] core::Method method_elsewhere(const std::string& name) const {

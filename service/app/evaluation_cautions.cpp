@@ -63,9 +63,8 @@ void tell_of_noise_models(const Evaluation& evaluation, std::vector<std::string>
   if (!guessed.empty()) cautions.push_back(rows_of(guessed, judged.size()) + of_guesses(rows));
   if (rows.judged_alone) {
     cautions.emplace_back(
-        "axes are given the same noise: each is judged by itself, while the daemon also looks at what the "
-        "axes "
-        "of a sensor share");
+        "axes are given the same noise: each is judged by itself, while the daemon also looks at what a "
+        "sensor's axes share");
   }
 }
 

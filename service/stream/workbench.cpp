@@ -1,6 +1,5 @@
 #include "stream/workbench.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
