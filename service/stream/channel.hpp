@@ -62,7 +62,7 @@ class Channel {
   HealthWatch watch;
 
   /// Nothing comes: what leaves from now on leaves, perhaps, to nobody. Before the segment is closed.
-  void note_silence() noexcept;
+  void note_silence(double now_s) noexcept;
   /// The sensor is not in sight any more, or was not before it came back: what had left until then. See Engine::come_again(). Before the
   /// segment is closed.
   void lose_sight(double now_s) noexcept;
@@ -158,6 +158,8 @@ class Channel {
 
   void take_block(const RestEvidence& rest);
   void look_for_history(double now_s);
+  /// A silence is just over that was longer than the one that lasts: readers were lost in the longest.
+  [[nodiscard]] bool heard_again_after_longer(double now_s) const noexcept;
   [[nodiscard]] std::optional<PublishedMark> last_published() const noexcept;
   /// The channel has work, no owner and no place in the scheduler's queue: takes the place.
   [[nodiscard]] bool must_schedule();
@@ -177,7 +179,8 @@ class Channel {
   double heard_s_ = 0.0;     ///< the intake's alone
   std::atomic<ChannelState> state_{ChannelState::kActive};
   std::optional<PublishedMark> before_silence_;    ///< the intake's alone
-  std::optional<double> heard_again_s_;            ///< when that silence ended; the intake's alone
+  double silence_s_ = 0.0;                         ///< how long it was; the intake's alone
+  std::optional<double> heard_again_s_;            ///< when it ended; the intake's alone
   std::optional<PublishedMark> seen_;              ///< the intake's alone
   std::optional<double> history_until_s_;          ///< the intake's alone
   double history_lasts_s_ = kLongestHistory_s;     ///< the intake's alone

@@ -16,13 +16,17 @@ constexpr double kJustHeard_s = 5.0;
 
 }  // namespace
 
-void Channel::note_silence() noexcept {
-  if (!asleep) before_silence_ = last_published();
+bool Channel::heard_again_after_longer(double now_s) const noexcept {
+  return heard_again_s_ && now_s - *heard_again_s_ <= kJustHeard_s && now_s - heard_s_ < silence_s_;
+}
+
+void Channel::note_silence(double now_s) noexcept {
+  if (asleep || heard_again_after_longer(now_s)) return;
+  before_silence_ = last_published();
 }
 
 void Channel::lose_sight(double now_s) noexcept {
-  const bool just_heard = heard_again_s_ && now_s - *heard_again_s_ <= kJustHeard_s;
-  seen_ = asleep || just_heard ? before_silence_ : last_published();
+  seen_ = asleep || heard_again_after_longer(now_s) ? before_silence_ : last_published();
 }
 
 /// The newest sample that has left, or that need not leave. What a worker is about to send counts as held.
@@ -70,8 +74,9 @@ bool Channel::is_history(const Sample& sample) noexcept {
 
 /// Before the channel is heard at now_s.
 void Channel::look_for_history(double now_s) {
-  if (ring.end() > 0 && now_s - heard_s_ >= kOutOfSight_s) {
-    note_silence();  // what is held leaves only now
+  if (ring.end() > 0 && now_s - heard_s_ >= kOutOfSight_s && !heard_again_after_longer(now_s)) {
+    note_silence(now_s);  // what is held leaves only now
+    silence_s_ = now_s - heard_s_;
     heard_again_s_ = now_s;
   }
   if (!published_before_) return;

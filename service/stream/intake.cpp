@@ -204,7 +204,7 @@ void Engine::Impl::fall_silent(std::string_view sensor, ChannelState why) noexce
 
 /// The gate stays open: it tells what was missing when the sensor is back.
 void Engine::Impl::fall_silent(Channel& channel, ChannelState why) {
-  channel.note_silence();
+  channel.note_silence(clock_());
   close_segment(channel, false);
   channel.asleep = true;
   channel.gate.expect_restart();
