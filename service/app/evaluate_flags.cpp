@@ -5,6 +5,7 @@
 
 #include "app/evaluated_methods.hpp"
 #include "app/flags.hpp"
+#include "app/options.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -196,6 +197,7 @@ EvaluationOptions options_of(const EvaluateFlags& flags) {
   options.lag_samples = lags_of(flags, options);
   options.turns = !flags.no_turns;
   options.turn_repeats = flags.turn_repeats;
+  options.threads = worker_threads(options.settings);
   check_lags(options);
   return options;
 }

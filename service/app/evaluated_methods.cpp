@@ -9,6 +9,7 @@
 #include "app/joint_contender.hpp"
 #include "app/options.hpp"
 #include "app/record_denoiser.hpp"
+#include "app/remembered_runs.hpp"
 #include "core/denoise/scheme.hpp"
 #include "core/joint/joint_options.hpp"
 #include "files/record.hpp"
@@ -30,28 +31,49 @@ files::Record record_of(std::span<const double> noisy_dps, double rate_hz) {
   return record;
 }
 
-core::Method two_speed_method(const std::string& name, const MethodContext& context) {
+JointRun joint_run(const MethodContext& context) {
   JointRun run;
   run.sample_rate_hz = context.rate_hz;
   run.window_samples = context.settings.engine.window_samples;
   run.doublings = stream::doublings_at(context.settings.engine, context.rate_hz);
   run.options = joint_options(context.settings);
   run.max_signal_hz = context.settings.denoise.max_signal_hz;
-  run.lag_samples = context.lag_samples;
-  run.realtime = answers_at_once(name);
   if (context.sensor) run.noise = context.sensor->noise;
   run.noise[context.axis] = context.noise;
-  const auto estimate = [run, axis = context.axis, sensor = context.sensor,
-                         learns = context.learns_itself](std::span<const double> noisy_dps) {
+  return run;
+}
+
+/// All of `answers` to a record.
+RememberedRuns::Run two_speed_runs(const MethodContext& context, std::vector<JointAnswer> answers) {
+  return [run = joint_run(context), answers = std::move(answers), axis = context.axis,
+          sensor = context.sensor, learns = context.learns_itself](std::span<const double> noisy_dps) {
     std::array<std::span<const double>, stream::kAxes> axes;
     if (sensor) std::ranges::copy(sensor->noisy_dps, axes.begin());
     axes[axis] = noisy_dps;
-    if (!learns) return joint_contender(run, axis, axes);
+    if (!learns) return joint_contenders(run, answers, axis, axes);
     JointRun own = run;
     own.noise[axis] = learned_at_rest({noisy_dps, {}, {}}, run.sample_rate_hz)[0];
-    return joint_contender(own, axis, axes);
+    return joint_contenders(own, answers, axis, axes);
   };
-  return {name, run.realtime ? 0 : context.lag_samples, estimate};
+}
+
+core::Method paper_method(const WantedMethod& wanted, const MethodContext& context) {
+  settings::Settings settings = context.settings;
+  settings.engine.lag_samples = wanted.lag_samples;
+  settings.noise.source = settings::NoiseSource::kImf1;  // the paper's schemes know no other
+  const auto run = [name = wanted.name, settings,
+                    rate_hz = context.rate_hz](std::span<const double> noisy_dps) {
+    core::Contender contender;
+    contender.name = name;
+    contender.lag_samples = settings.engine.lag_samples;
+    contender.seams = core::seams_every(settings.engine.hop_samples, settings.engine.lag_samples);
+    auto rates = denoise_record(record_of(noisy_dps, rate_hz), settings,
+                                core::scheme_of(name).value_or(core::Scheme::kRaw), false);
+    contender.estimate = std::move(rates[0]);
+    for (double& value : contender.estimate) value /= kRadPerDeg;
+    return contender;
+  };
+  return {wanted.name, wanted.lag_samples, run};
 }
 
 }  // namespace
@@ -74,23 +96,29 @@ std::size_t largest_lag(const std::string& name, const settings::Settings& setti
   return takes_noise_model(name) ? core::kMaxLag : settings.engine.window_samples / 4;
 }
 
-core::Method evaluated_method(const std::string& name, const MethodContext& context) {
-  if (takes_noise_model(name)) return two_speed_method(name, context);
-  settings::Settings settings = context.settings;
-  settings.engine.lag_samples = context.lag_samples;
-  settings.noise.source = settings::NoiseSource::kImf1;  // the paper's schemes know no other
-  const auto run = [name, settings, rate_hz = context.rate_hz](std::span<const double> noisy_dps) {
-    core::Contender contender;
-    contender.name = name;
-    contender.lag_samples = settings.engine.lag_samples;
-    contender.seams = core::seams_every(settings.engine.hop_samples, settings.engine.lag_samples);
-    auto rates = denoise_record(record_of(noisy_dps, rate_hz), settings,
-                                core::scheme_of(name).value_or(core::Scheme::kRaw), false);
-    contender.estimate = std::move(rates[0]);
-    for (double& value : contender.estimate) value /= kRadPerDeg;
-    return contender;
-  };
-  return {name, context.lag_samples, run};
+std::vector<core::Method> evaluated_methods(const std::vector<WantedMethod>& wanted,
+                                            const MethodContext& context, std::size_t records) {
+  std::vector<JointAnswer> answers;
+  for (const WantedMethod& one : wanted) {
+    if (takes_noise_model(one.name)) answers.push_back({one.lag_samples, answers_at_once(one.name)});
+  }
+  const auto runs = std::make_shared<RememberedRuns>(two_speed_runs(context, answers), records);
+  std::vector<core::Method> methods;
+  std::size_t answer = 0;
+  for (const WantedMethod& one : wanted) {
+    if (!takes_noise_model(one.name)) {
+      methods.push_back(paper_method(one, context));
+      continue;
+    }
+    const auto run = [runs, answer](std::span<const double> noisy) { return runs->answer(noisy, answer); };
+    methods.push_back({one.name, answers_at_once(one.name) ? 0 : one.lag_samples, run});
+    ++answer;
+  }
+  return methods;
+}
+
+core::Method evaluated_method(const WantedMethod& wanted, const MethodContext& context) {
+  return std::move(evaluated_methods({wanted}, context).front());
 }
 
 }  // namespace gyrod::app

@@ -1,94 +1,21 @@
 #include "app/evaluation.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <iterator>
-#include <optional>
+#include <future>
+#include <mutex>
 #include <span>
 #include <utility>
 
 #include "app/evaluated_methods.hpp"
+#include "app/rival_families.hpp"
 #include "core/signal/moments.hpp"
-#include "report/json.hpp"
 
 namespace gyrod::app {
 namespace {
 
-using core::Rival;
-
-constexpr const char* kTunedName = "Butterworth";
-
-/// Rivals of which the best stands in one line.
-struct Family {
-  const char* name;
-  EstimatorKind kind;
-  std::vector<Rival> rivals;
-};
-
-const std::vector<Family>& families() {
-  static const std::vector<Family> all = {
-      {"raw", EstimatorKind::kUntouched, {Rival::kRaw}},
-      {"bias removed", EstimatorKind::kUntouched, {Rival::kBiasRemoved}},
-      {kTunedName,
-       EstimatorKind::kFilter,
-       {Rival::kButterworth1, Rival::kButterworth2, Rival::kButterworth4}},
-      {"exponential average", EstimatorKind::kFilter, {Rival::kExponential}},
-      {"moving average", EstimatorKind::kFilter, {Rival::kMovingAverage}},
-      {"Savitzky-Golay", EstimatorKind::kFilter, {Rival::kSavitzkyGolay}},
-      {"alpha-beta", EstimatorKind::kFilter, {Rival::kAlphaBeta}},
-      {"One-Euro", EstimatorKind::kFilter, {Rival::kOneEuro}},
-      {"zero-phase Butterworth",
-       EstimatorKind::kBound,
-       {Rival::kZeroPhase1, Rival::kZeroPhase2, Rival::kZeroPhase4}},
-  };
-  return all;
-}
-
-constexpr std::size_t kButterworth = 2;  // in families()
-
-std::string order_of(Rival rival) {
-  const std::string name(core::name_of(rival));
-  const bool has_order = name.back() >= '1' && name.back() <= '4';
-  return has_order ? "order " + std::string(1, name.back()) + ", " : "";
-}
-
-std::string tuning_words(const core::RivalSetting& setting, double rate_hz) {
-  const double parameter = setting.parameter;
-  const core::RivalParameter kind = core::parameter_of(setting.rival);
-  const bool smooths = kind != core::RivalParameter::kNone && kind != core::RivalParameter::kOffset;
-  if (smooths && parameter == core::pass_through_of(setting.rival)) return "passes all";
-  switch (kind) {
-    case core::RivalParameter::kNone:
-      return "";
-    case core::RivalParameter::kOffset:
-      return "bias " + report::number_text(parameter, 3) + " deg/s";
-    case core::RivalParameter::kCutoff:
-      return order_of(setting.rival) + "cut-off " + report::number_text(parameter * rate_hz, 3) + " Hz" +
-             (setting.second > 0.0 ? " + " + report::number_text(setting.second * rate_hz, 2) + " Hz a step"
-                                   : "");
-    case core::RivalParameter::kShare:
-      return "share " + report::number_text(parameter, 3);
-    case core::RivalParameter::kSamples:
-      return std::to_string(std::llround(parameter)) + " samples";
-    case core::RivalParameter::kIndex:
-      return "tracking index " + report::number_text(parameter, 3);
-  }
-  return "";
-}
-
-/// The best of a family for each bound.
-std::vector<core::TunedRival> tuned(const Family& family, const core::TuningCase& on,
-                                    const std::vector<std::size_t>& bounds) {
-  std::vector<core::TunedRival> best;
-  for (const Rival rival : family.rivals) {
-    const auto now = core::tune(rival, on, bounds);
-    if (best.empty()) best = now;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      if (now[i].rmse < best[i].rmse) best[i] = now[i];
-    }
-  }
-  return best;
-}
+constexpr std::size_t kRecordsOfGuards = 4;  ///< the record, and three with a swing on top
 
 double known_std(const std::vector<double>& x, core::SampleRange range) {
   std::vector<double> known;
@@ -98,20 +25,25 @@ double known_std(const std::vector<double>& x, core::SampleRange range) {
   return std::sqrt(core::variance(known));
 }
 
-/// Tells how far all is; remembers that it is to stop.
+/// Tells how far all rows are; remembers that it is to stop. Asked by the threads of all of them.
 class Steps {
  public:
   Steps(std::size_t total, const std::function<bool(double)>& look) : total_(total), look_(look) {}
 
   /// @return false to stop
   bool next() {
+    const std::lock_guard lock(mutex_);
     if (!stopped_ && look_) stopped_ = !look_(static_cast<double>(done_) / static_cast<double>(total_));
     ++done_;
     return !stopped_;
   }
-  [[nodiscard]] bool stopped() const noexcept { return stopped_; }
+  [[nodiscard]] bool stopped() const {
+    const std::lock_guard lock(mutex_);
+    return stopped_;
+  }
 
  private:
+  mutable std::mutex mutex_;
   std::size_t total_;
   const std::function<bool(double)>& look_;
   std::size_t done_ = 0;
@@ -142,10 +74,9 @@ class RowJudge {
   }
 
   [[nodiscard]] JudgedRow judge() {
-    for (const std::string& name : options_.methods) judge_method(name);
-    for (const Family& family : families()) judge_family(family);
-    std::vector<core::Method> chosen;
-    for (const std::string& name : options_.methods) chosen.push_back(method(name, own_lag()));
+    judge_methods();
+    for (const RivalFamily& family : rival_families()) judge_family(family);
+    std::vector<core::Method> chosen = evaluated_methods(with_own_lag(), context(), kRecordsOfGuards);
     for (const std::size_t lag : own_lags(options_)) chosen.push_back(butterworth(lag));
     for (const core::Method& one : chosen) closer_look(one);
     if (options_.turns) take_turns(std::span(chosen).subspan(options_.methods.size()));
@@ -154,18 +85,24 @@ class RowJudge {
 
  private:
   [[nodiscard]] std::size_t own_lag() const noexcept { return options_.settings.engine.lag_samples; }
-  [[nodiscard]] core::Method method(const std::string& name, std::size_t lag) const {
-    return evaluated_method(name, {.settings = options_.settings,
-                                   .lag_samples = lag,
-                                   .rate_hz = rate_hz_,
-                                   .noise = row_.noise.course,
-                                   .axis = axis_index(row_.axis),
-                                   .sensor = row_.sensor});
+  [[nodiscard]] std::vector<WantedMethod> with_own_lag() const {
+    std::vector<WantedMethod> wanted;
+    for (const std::string& name : options_.methods) wanted.push_back({name, own_lag()});
+    return wanted;
+  }
+  [[nodiscard]] MethodContext context() const {
+    return {.settings = options_.settings,
+            .rate_hz = rate_hz_,
+            .noise = row_.noise.course,
+            .axis = axis_index(row_.axis),
+            .sensor = row_.sensor};
   }
   /// For runs that are no part of the record: where rest tells the noise, their own rest does.
-  [[nodiscard]] core::Method method_elsewhere(const std::string& name) const {
-    return evaluated_method(name,
-                            {options_.settings, own_lag(), rate_hz_, row_.noise.course, row_.noise.learns});
+  [[nodiscard]] MethodContext context_elsewhere() const {
+    return {.settings = options_.settings,
+            .rate_hz = rate_hz_,
+            .noise = row_.noise.course,
+            .learns_itself = row_.noise.learns};
   }
   [[nodiscard]] core::TuningCase tuning_case() const {
     return {row_.noisy_dps, row_.truth_dps, options_.range};
@@ -175,22 +112,33 @@ class RowJudge {
     return core::error_figures(row_.truth_dps, contender, {.rate_hz = rate_hz_, .range = options_.range});
   }
 
-  void judge_method(const std::string& name) {
-    JudgedEstimator estimator{name, EstimatorKind::kMethod, {}};
-    for (const std::size_t lag : options_.lag_samples) {
-      if (!steps_.next()) return;
-      const core::Method one = method(name, lag);
-      if (!estimator.lags.empty() && one.lag_samples == estimator.lags.back().lag_samples) {
-        estimator.lags.push_back(estimator.lags.back());  // the same answers
-        estimator.lags.back().lag_bound = lag;
-        continue;
+  /// What answers at once is judged once, whatever the lag.
+  void judge_methods() {
+    std::vector<WantedMethod> wanted;
+    for (const std::string& name : options_.methods) {
+      for (const std::size_t lag : options_.lag_samples) {
+        if (lag == options_.lag_samples.front() || !answers_at_once(name)) wanted.push_back({name, lag});
       }
-      estimator.lags.push_back({lag, one.lag_samples, "", figures(one.run(row_.noisy_dps))});
     }
-    judged_.estimators.push_back(std::move(estimator));
+    const std::vector<core::Method> methods = evaluated_methods(wanted, context());
+    auto method = methods.begin();
+    for (const std::string& name : options_.methods) {
+      JudgedEstimator estimator{name, EstimatorKind::kMethod, {}};
+      for (const std::size_t lag : options_.lag_samples) {
+        if (!steps_.next()) return;
+        if (!estimator.lags.empty() && answers_at_once(name)) {
+          estimator.lags.push_back(estimator.lags.back());
+          estimator.lags.back().lag_bound = lag;
+          continue;
+        }
+        estimator.lags.push_back({lag, method->lag_samples, "", figures(method->run(row_.noisy_dps))});
+        ++method;
+      }
+      judged_.estimators.push_back(std::move(estimator));
+    }
   }
 
-  void judge_family(const Family& family) {
+  void judge_family(const RivalFamily& family) {
     if (!steps_.next()) return;
     JudgedEstimator estimator{family.name, family.kind, {}};
     for (const core::TunedRival& best : tuned(family, tuning_case(), options_.lag_samples)) {
@@ -203,7 +151,7 @@ class RowJudge {
 
   /// The best that is allowed this lag.
   [[nodiscard]] core::Method butterworth(std::size_t lag) const {
-    const auto best = tuned(families()[kButterworth], tuning_case(), {lag});
+    const auto best = tuned(tuned_butterworths(), tuning_case(), {lag});
     core::Method tuned_one = core::method_of(best[0]);
     tuned_one.name = lag == own_lag() ? kTunedName : std::string(kTunedName) + ", lag " + std::to_string(lag);
     return tuned_one;
@@ -219,8 +167,8 @@ class RowJudge {
   }
 
   void take_turns(std::span<const core::Method> filters) {
-    std::vector<core::Method> chosen;
-    for (const std::string& name : options_.methods) chosen.push_back(method_elsewhere(name));
+    std::vector<core::Method> chosen =
+        evaluated_methods(with_own_lag(), context_elsewhere(), options_.turn_repeats);
     chosen.insert(chosen.end(), filters.begin(), filters.end());
     core::TurnOptions turn;
     turn.rate_hz = rate_hz_;
@@ -270,7 +218,7 @@ class RowJudge {
 
 std::size_t steps_a_row(const EvaluationOptions& options) {
   const std::size_t close = 2 + (options.turns ? 1 + core::kTurnProfiles.size() : 0);
-  return options.methods.size() * options.lag_samples.size() + families().size() +
+  return options.methods.size() * options.lag_samples.size() + rival_families().size() +
          (own_lags(options).size() + options.methods.size()) * close;
 }
 
@@ -278,11 +226,17 @@ std::size_t steps_a_row(const EvaluationOptions& options) {
 
 std::vector<JudgedRow> evaluate(const EvaluationRows& rows, const EvaluationOptions& options) {
   Steps steps(rows.rows.size() * steps_a_row(options), options.look);
-  std::vector<JudgedRow> judged;
-  for (const EvaluationRow& row : rows.rows) {
-    judged.push_back(RowJudge(row, rows.rate_hz, options, steps).judge());
-    if (steps.stopped()) return {};
-  }
+  std::vector<JudgedRow> judged(rows.rows.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t row = next++; row < judged.size() && !steps.stopped(); row = next++)
+      judged[row] = RowJudge(rows.rows[row], rows.rate_hz, options, steps).judge();
+  };
+  const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, judged.size());
+  std::vector<std::future<void>> at_work;
+  while (at_work.size() < threads) at_work.push_back(std::async(std::launch::async, work));
+  for (std::future<void>& one : at_work) one.get();
+  if (steps.stopped()) return {};
   return judged;
 }
 

@@ -25,7 +25,8 @@ struct EvaluationOptions {
   core::SampleRange range;
   bool turns = true;
   std::size_t turn_repeats = 3;
-  /// Called before each step with the part that is done. @return false to stop
+  std::size_t threads = 1;  ///< that judge rows; the result does not depend on it
+  /// Called before each step with the part that is done, by one thread at a time. @return false to stop
   std::function<bool(double fraction)> look;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/denoise/window_report.hpp"
@@ -19,20 +20,40 @@ namespace {
 
 using Axes = std::array<std::span<const double>, stream::kAxes>;
 
-/// Estimates and claimed deviations, each at the sample that it is of.
-class Estimates {
+/// A filter, and what it answers: estimates and claimed deviations, each at the sample that it is of.
+class Answering {
  public:
-  explicit Estimates(std::size_t samples) {
+  Answering(const JointAnswer& answer, std::size_t samples, std::unique_ptr<stream::SampleFilter> with)
+      : filter(std::move(with)), lag_(answer.realtime ? 0 : answer.lag_samples), realtime_(answer.realtime) {
+    contender.name = realtime_ ? "realtime" : "joint";
+    contender.lag_samples = lag_;
     contender.estimate.assign(samples, std::numeric_limits<double>::quiet_NaN());
     contender.std.emplace(samples, std::numeric_limits<double>::quiet_NaN());
   }
 
+  void step(std::size_t t, double sample) {
+    const stream::Estimates both = filter->step(sample);
+    if (t >= lag_) put(t - lag_, realtime_ ? both.realtime : both.denoised);
+  }
+
+  /// Adds what would still come after the last sample.
+  void finish(std::size_t hop) {
+    contender.seams = core::seams_every(hop, lag_);
+    const std::size_t samples = contender.estimate.size();
+    for (std::size_t age = 0; age < std::min(lag_, samples); ++age) put(samples - 1 - age, filter->held(age));
+  }
+
+  std::unique_ptr<stream::SampleFilter> filter;
+  core::Contender contender;
+
+ private:
   void put(std::size_t t, const stream::Estimate& estimate) {
     contender.estimate[t] = estimate.rate;
     (*contender.std)[t] = std::sqrt(estimate.variance);
   }
 
-  core::Contender contender;
+  std::size_t lag_;
+  bool realtime_;
 };
 
 /// What the axes have at a sample; what is not measured is 0, as in the daemon.
@@ -77,8 +98,8 @@ class SlowLoop {
   }
 
   [[nodiscard]] std::size_t hop() const noexcept { return static_cast<std::size_t>(schedule_.step()); }
-  [[nodiscard]] std::unique_ptr<stream::SampleFilter> filter() const {
-    return factory_.filter(run_.lag_samples);
+  [[nodiscard]] std::unique_ptr<stream::SampleFilter> filter(std::size_t lag_samples) const {
+    return factory_.filter(lag_samples);
   }
 
  private:
@@ -134,37 +155,34 @@ class SlowLoop {
 
 }  // namespace
 
-core::Contender joint_contender(const JointRun& run, std::size_t axis, const Axes& noisy) {
+std::vector<core::Contender> joint_contenders(const JointRun& run, std::span<const JointAnswer> answers,
+                                              std::size_t axis, const Axes& noisy) {
   const std::size_t samples = noisy[axis].size();
   SlowLoop slow_loop(run, axis, noisy);
-  const std::unique_ptr<stream::SampleFilter> filter = slow_loop.filter();
-  filter->expect_noise(known_at(run.noise[axis], 1));
-  Estimates estimates(samples);
+  std::vector<Answering> all;
+  for (const JointAnswer& answer : answers) {
+    all.emplace_back(answer, samples, slow_loop.filter(answer.lag_samples));
+    all.back().filter->expect_noise(known_at(run.noise[axis], 1));
+  }
   core::StartNoise start_noise;
   bool has_model = false;
   for (std::size_t t = 0; t < samples; ++t) {
     if (const stream::Model* model = slow_loop.model_from(t)) {
-      filter->use(*model);
+      for (const Answering& one : all) one.filter->use(*model);
       has_model = true;
     }
     if (!has_model) {
       start_noise.step(sample_at(noisy, t));
-      filter->bound_noise(start_noise.most(axis));
+      for (const Answering& one : all) one.filter->bound_noise(start_noise.most(axis));
     }
-    const stream::Estimates both = filter->step(noisy[axis][t]);
-    if (run.realtime) {
-      estimates.put(t, both.realtime);
-    } else if (t >= run.lag_samples) {
-      estimates.put(t - run.lag_samples, both.denoised);
-    }
+    for (Answering& one : all) one.step(t, noisy[axis][t]);
   }
-  for (std::size_t age = 0; !run.realtime && age < std::min(run.lag_samples, samples); ++age)
-    estimates.put(samples - 1 - age, filter->held(age));
-  const std::size_t lag = run.realtime ? 0 : run.lag_samples;
-  estimates.contender.name = run.realtime ? "realtime" : "joint";
-  estimates.contender.lag_samples = lag;
-  estimates.contender.seams = core::seams_every(slow_loop.hop(), lag);
-  return std::move(estimates.contender);
+  std::vector<core::Contender> contenders;
+  for (Answering& one : all) {
+    one.finish(slow_loop.hop());
+    contenders.push_back(std::move(one.contender));
+  }
+  return contenders;
 }
 
 }  // namespace gyrod::app

@@ -115,11 +115,15 @@ bus::BusOptions live_bus_options(const settings::Settings& settings) {
   return options;
 }
 
+std::size_t worker_threads(const settings::Settings& settings) {
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  return settings.workers > 0 ? settings.workers : cores;
+}
+
 stream::EngineOptions live_engine_options(const settings::Settings& settings, NoiseSources& noise,
                                           PublishedFile& published) {
   stream::EngineOptions options = settings.engine;
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  options.workers = settings.workers > 0 ? settings.workers : cores;
+  options.workers = worker_threads(settings);
   noise.attach_to(options);
   if (settings.bus.input.durability == settings::Durability::kTransientLocal) {
     options.published_before = [&published](std::string_view sensor) {

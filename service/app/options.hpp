@@ -17,7 +17,10 @@ namespace gyrod::app {
 /// The same for the daemon, which offers the topics that its method fills.
 [[nodiscard]] bus::BusOptions live_bus_options(const settings::Settings& settings);
 
-/// For the daemon: as many workers as the settings say, or as there are processor cores.
+/// As many as the settings say, or as there are processor cores.
+[[nodiscard]] std::size_t worker_threads(const settings::Settings& settings);
+
+/// For the daemon: with worker_threads().
 /// @param noise, published have to outlive the engine
 [[nodiscard]] stream::EngineOptions live_engine_options(const settings::Settings& settings,
                                                         NoiseSources& noise, PublishedFile& published);

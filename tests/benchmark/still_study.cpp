@@ -68,11 +68,13 @@ std::array<Estimator, 3> estimators(const core::NoiseModel& noise, const setting
   const auto joint = [noise](bool realtime) {
     app::JointRun run;
     run.noise[0] = app::known_throughout(noise);
-    run.realtime = realtime;
-    return [run](std::span<const double> dps) { return app::joint_contender(run, 0, {dps}).estimate; };
+    return [run, realtime](std::span<const double> dps) {
+      const std::array answers = {app::JointAnswer{.realtime = realtime}};
+      return app::joint_contenders(run, answers, 0, {dps}).front().estimate;
+    };
   };
   const core::Method paper =
-      app::evaluated_method("improved", {settings, settings.engine.lag_samples, kRateHz, {}});
+      app::evaluated_method({"improved", settings.engine.lag_samples}, {settings, kRateHz, {}});
   return {joint(false), joint(true),
           [paper](std::span<const double> dps) { return paper.run(dps).estimate; }};
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -27,8 +28,9 @@ Signal shaken(std::size_t size) {
 
 std::vector<double> judged(const char* name, const settings::Settings& settings, const Signal& noisy,
                            double rate_hz = kJudgedRateHz) {
-  const app::MethodContext context{settings, settings.engine.lag_samples, rate_hz, {}};
-  return app::evaluated_method(name, context).run(noisy).estimate;
+  return app::evaluated_method({name, settings.engine.lag_samples}, {settings, rate_hz, {}})
+      .run(noisy)
+      .estimate;
 }
 
 /// Root mean square of what an estimate has of the vibration, from sample 2000 on.
@@ -93,7 +95,8 @@ double worst_of(const std::array<Signal, 3>& noisy, const settings::Settings& se
     app::MethodContext of_axis = context;
     of_axis.axis = axis;
     if (of_axis.sensor) of_axis.noise = of_axis.sensor->noise[axis];
-    const auto estimate = app::evaluated_method("joint", of_axis).run(noisy[axis]).estimate;
+    const auto estimate =
+        app::evaluated_method({"joint", settings.engine.lag_samples}, of_axis).run(noisy[axis]).estimate;
     for (std::size_t t = 0; t < estimate.size(); ++t)
       worst = std::max(worst, std::abs(estimate[t] - app::kDegPerRad * denoised[axis][t]));
   }
@@ -111,10 +114,35 @@ TEST(EvaluatedMethods, SeeWhatAxesShareAsTheDaemonDoes) {
   settings::Settings settings;
   settings.engine.sample_rate_hz = kJudgedRateHz;
   settings.noise.source = settings::NoiseSource::kImf1;
-  app::MethodContext context{settings, settings.engine.lag_samples, kJudgedRateHz, {}};
+  app::MethodContext context{settings, kJudgedRateHz, {}};
   EXPECT_GT(worst_of(noisy, settings, context), 1.0);
   context.sensor = std::make_shared<app::SensorAxes>(app::SensorAxes{noisy, {}});
   EXPECT_LT(worst_of(noisy, settings, context), 1e-6);
+}
+
+// One pass gives what each gives by itself, and the record with something on top is another.
+TEST(EvaluatedMethods, ShareTheirModelsWithoutATrace) {
+  const Signal noisy = shaken(1500);
+  const Signal other = times(noisy, 2.0);
+  const settings::Settings settings;
+  const app::MethodContext context{settings, kJudgedRateHz, {}};
+  const std::vector<app::WantedMethod> wanted = {
+      {"joint", 0}, {"improved", 8}, {"joint", 32}, {"realtime", 16}};
+  const auto together = app::evaluated_methods(wanted, context, 2);
+  ASSERT_EQ(together.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const core::Method alone = app::evaluated_method(wanted[i], context);
+    EXPECT_EQ(together[i].name, wanted[i].name);
+    EXPECT_EQ(together[i].lag_samples, alone.lag_samples);
+    for (const Signal& record : {noisy, other, noisy}) {
+      const core::Contender contender = together[i].run(record);
+      const core::Contender expected = alone.run(record);
+      EXPECT_EQ(contender.name, wanted[i].name);
+      EXPECT_EQ(contender.lag_samples, alone.lag_samples);
+      EXPECT_EQ(contender.estimate, expected.estimate) << i;
+      EXPECT_EQ(contender.std, expected.std) << i;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(EvaluatedMethods, EvaluatedAtRate, ::testing::Values(kJudgedRateHz, kFastRateHz));

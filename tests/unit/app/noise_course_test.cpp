@@ -87,7 +87,8 @@ Signal published(app::EstimateKind kind, const std::array<Signal, 3>& rates_dps)
 /// Largest difference between that and what is judged, deg/s.
 double worst_difference(const Signal& published_radps, const char* name, const app::MethodContext& context,
                         const Signal& rates_dps) {
-  const auto judged = app::evaluated_method(name, context).run(rates_dps).estimate;
+  const auto judged =
+      app::evaluated_method({name, context.settings.engine.lag_samples}, context).run(rates_dps).estimate;
   double worst = 0.0;
   for (std::size_t t = 0; t < kWhole; ++t)
     worst = std::max(worst, std::abs(judged[t] - app::kDegPerRad * published_radps[t]));
@@ -99,9 +100,9 @@ TEST(LearnedAtRest, IsUsedFromTheSameSampleOnAsTheDaemonDoes) {
   const std::array<Signal, 3> rates = {rest_then_swing(1), rest_then_swing(2), rest_then_swing(3)};
   const auto courses = app::learned_at_rest({rates[0], rates[1], rates[2]}, kCourseRateHz);
   const auto sensor = std::make_shared<app::SensorAxes>(app::SensorAxes{rates, courses});
-  app::MethodContext learned{settings, settings.engine.lag_samples, kCourseRateHz, courses[0]};
+  app::MethodContext learned{settings, kCourseRateHz, courses[0]};
   learned.sensor = sensor;
-  const app::MethodContext guessing{settings, settings.engine.lag_samples, kCourseRateHz, {}};
+  const app::MethodContext guessing{settings, kCourseRateHz, {}};
   const Signal denoised = published(app::EstimateKind::kDenoised, rates);
   const Signal realtime = published(app::EstimateKind::kRealtime, rates);
   EXPECT_LT(worst_difference(denoised, "joint", learned, rates[0]), 1e-5);
@@ -112,7 +113,7 @@ TEST(LearnedAtRest, IsUsedFromTheSameSampleOnAsTheDaemonDoes) {
 TEST(LearnedAtRest, IsWhatARunShowsItselfWhereItLearnsItself) {
   const settings::Settings settings;
   const std::array<Signal, 3> rates = {rest_then_swing(1), {}, {}};
-  const app::MethodContext learning{settings, settings.engine.lag_samples, kCourseRateHz, {}, true};
+  const app::MethodContext learning{settings, kCourseRateHz, {}, true};
   EXPECT_LT(worst_difference(published(app::EstimateKind::kDenoised, rates), "joint", learning, rates[0]),
             1e-6);
 }

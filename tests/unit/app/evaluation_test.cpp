@@ -1,0 +1,144 @@
+// The judges of an evaluation's rows: what several threads make of them is what one does.
+#include "app/evaluation.hpp"
+
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/evaluation_report.hpp"
+#include "app/remembered_runs.hpp"
+#include "support/signals.hpp"
+
+namespace gyrod {
+namespace {
+
+using namespace testing;
+
+constexpr std::size_t kJudgedSamples = 700;
+
+/// 100 Hz: a swing of 5 deg/s about each axis in noise of its own, of which nothing is known.
+app::EvaluationRows swings(std::size_t rows) {
+  app::EvaluationRows all;
+  all.rate_hz = 100.0;
+  all.samples = kJudgedSamples;
+  for (std::size_t i = 0; i < rows; ++i) {
+    app::EvaluationRow row;
+    row.axis = std::string(1, static_cast<char>('x' + i));
+    row.truth_dps = times(tone(kJudgedSamples, 0.003), 5.0);
+    row.noise_dps = white_noise(kJudgedSamples, 3 + static_cast<unsigned>(i));
+    row.noisy_dps = sum(row.truth_dps, row.noise_dps);
+    all.axes.push_back(row.axis);
+    all.rows.push_back(std::move(row));
+  }
+  return all;
+}
+
+app::EvaluationOptions judged_in(std::size_t threads) {
+  app::EvaluationOptions options;
+  options.methods = {"joint", "realtime"};
+  options.lag_samples = {0, 16};
+  options.range = {200, kJudgedSamples};
+  options.turns = false;
+  options.threads = threads;
+  return options;
+}
+
+std::string told(const app::EvaluationRows& rows, const app::EvaluationOptions& options) {
+  const auto judged = app::evaluate(rows, options);
+  return app::evaluation_json({rows, options, judged}).dump();
+}
+
+TEST(EvaluationOfRows, IsTheSameInAnyNumberOfThreads) {
+  const app::EvaluationRows rows = swings(3);
+  const std::string alone = told(rows, judged_in(1));
+  EXPECT_EQ(told(rows, judged_in(2)), alone);
+  EXPECT_EQ(told(rows, judged_in(64)), alone) << "more than rows";
+}
+
+TEST(EvaluationOfRows, TellsHowFarAllThreadsAre) {
+  const app::EvaluationRows rows = swings(3);
+  app::EvaluationOptions options = judged_in(3);
+  std::vector<double> fractions;
+  options.look = [&fractions](double fraction) {
+    fractions.push_back(fraction);
+    return true;
+  };
+  EXPECT_EQ(app::evaluate(rows, options).size(), 3U);
+  ASSERT_GT(fractions.size(), 3U);
+  EXPECT_EQ(fractions.front(), 0.0);
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  EXPECT_LT(fractions.back(), 1.0);
+}
+
+TEST(EvaluationOfRows, StopsInAllThreads) {
+  const app::EvaluationRows rows = swings(3);
+  app::EvaluationOptions options = judged_in(2);
+  std::size_t looks = 0;
+  options.look = [&looks](double) { return ++looks < 5; };
+  EXPECT_TRUE(app::evaluate(rows, options).empty());
+  EXPECT_EQ(looks, 5U) << "nobody is asked again";
+}
+
+TEST(EvaluationOfRows, TellsItsCallerWhatAThreadCannotDo) {
+  const app::EvaluationRows rows = swings(3);
+  app::EvaluationOptions options = judged_in(2);
+  options.look = [](double) -> bool { throw std::runtime_error("no terminal"); };
+  EXPECT_THROW(static_cast<void>(app::evaluate(rows, options)), std::runtime_error);
+}
+
+/// Answers with the record's sum and with its size; counts its runs.
+class CountedRuns {
+ public:
+  explicit CountedRuns(std::size_t records)
+      : remembered_(
+            [this](std::span<const double> noisy) {
+              ++runs;
+              double total = 0.0;
+              for (const double value : noisy) total += value;
+              std::vector<core::Contender> answers(2);
+              answers[0].estimate = {total};
+              answers[1].estimate = {static_cast<double>(noisy.size())};
+              return answers;
+            },
+            records) {}
+
+  double answer(const std::vector<double>& noisy, std::size_t which) {
+    return remembered_.answer(noisy, which).estimate.front();
+  }
+
+  int runs = 0;
+
+ private:
+  app::RememberedRuns remembered_;
+};
+
+TEST(RememberedRuns, GiveAllAnswersToARecordForOnePass) {
+  CountedRuns all(1);
+  EXPECT_EQ(all.answer({1.0, 2.0}, 0), 3.0);
+  EXPECT_EQ(all.answer({1.0, 2.0}, 1), 2.0);
+  EXPECT_EQ(all.runs, 1);
+  EXPECT_EQ(all.answer({1.0, 2.5}, 0), 3.5) << "another record";
+  EXPECT_EQ(all.answer({1.0, 2.0, 0.0}, 1), 3.0) << "a longer one";
+  EXPECT_EQ(all.runs, 3);
+}
+
+TEST(RememberedRuns, ForgetTheRecordThatWasAskedForLongestAgo) {
+  CountedRuns all(2);
+  all.answer({1.0}, 0);
+  all.answer({2.0}, 0);
+  all.answer({1.0}, 1);
+  all.answer({3.0}, 0);
+  EXPECT_EQ(all.runs, 3);
+  EXPECT_EQ(all.answer({1.0}, 0), 1.0);
+  EXPECT_EQ(all.runs, 3) << "was asked for again";
+  EXPECT_EQ(all.answer({2.0}, 0), 2.0);
+  EXPECT_EQ(all.runs, 4);
+}
+
+}  // namespace
+}  // namespace gyrod
