@@ -1,12 +1,19 @@
 // Filters tuned on the truth, on a car's reference gyro plus the noise of a still one: RMSE in deg/s over samples 2400..9600.
 //   GYROD_DATA=... evaluation_study          best causal Butterworth (order 1, 2, 4; any delay <= L) and best zero-phase one
 //   GYROD_DATA=... evaluation_study --all    every rival by itself
+//   GYROD_DATA=... evaluation_study --scale-factor
+//       what a scale factor near 1 costs without look-ahead: the best causal linear filter of 96 samples, and the best of those that give back so
+//       much of the truth in means over 1 s
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include "core/evaluation/tuning.hpp"
 #include "support/drive_rows.hpp"
@@ -71,6 +78,80 @@ void all_rows(const std::vector<gyrod::test::DriveRow>& rows) {
   }
 }
 
+/// All causal linear filters of some samples on a row: their error is a quadratic form in the weights, and their scale factor, as the guard has it
+/// (one less the slope of the means over 1 s of what is taken away on those of the truth), is linear in them.
+class LinearFilters {
+ public:
+  /// Where the truth was lost for a sample, nothing is known of its second.
+  explicit LinearFilters(const gyrod::test::DriveRow& row) {
+    const auto second = static_cast<std::size_t>(std::lround(row.rate_hz));
+    std::vector<std::size_t> seconds;
+    for (std::size_t begin = gyrod::test::kJudgedBegin; begin + second <= gyrod::test::kJudgedEnd;
+         begin += second) {
+      const auto of_second = std::span(row.truth_dps).subspan(begin, second);
+      if (std::ranges::all_of(of_second, [](double value) { return std::isfinite(value); }))
+        seconds.push_back(begin);
+    }
+    const auto length = static_cast<Eigen::Index>(second);
+    const auto count = static_cast<Eigen::Index>(seconds.size());
+    Eigen::VectorXd truth(count * length);
+    Eigen::MatrixXd delayed(count * length, kTaps);
+    Eigen::VectorXd truth_means(count);
+    Eigen::MatrixXd means(count, kTaps);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index t = 0; t < length; ++t) {
+        const std::size_t now = seconds[static_cast<std::size_t>(i)] + static_cast<std::size_t>(t);
+        truth(i * length + t) = row.truth_dps[now];
+        for (Eigen::Index k = 0; k < kTaps; ++k)
+          delayed(i * length + t, k) = row.noisy_dps[now - static_cast<std::size_t>(k)];
+      }
+      truth_means(i) = truth.segment(i * length, length).mean();
+      means.row(i) = delayed.middleRows(i * length, length).colwise().mean();
+    }
+    const auto samples = static_cast<double>(truth.size());
+    power_ = delayed.transpose() * delayed / samples;
+    shared_ = delayed.transpose() * truth / samples;
+    truth_power_ = truth.squaredNorm() / samples;
+    truth_means.array() -= truth_means.mean();
+    slopes_ = means.transpose() * truth_means / truth_means.squaredNorm();
+  }
+
+  [[nodiscard]] Eigen::VectorXd best() const { return power_.ldlt().solve(shared_); }
+  [[nodiscard]] Eigen::VectorXd best_with(double scale_factor) const {
+    const Eigen::LDLT<Eigen::MatrixXd> factors(power_);
+    const Eigen::VectorXd direction = factors.solve(slopes_);
+    const Eigen::VectorXd weights = factors.solve(shared_);
+    return weights + direction * (scale_factor - this->scale_factor(weights)) / slopes_.dot(direction);
+  }
+  [[nodiscard]] double rmse(const Eigen::VectorXd& weights) const {
+    return std::sqrt(truth_power_ - 2.0 * shared_.dot(weights) + weights.dot(power_ * weights));
+  }
+  [[nodiscard]] double scale_factor(const Eigen::VectorXd& weights) const {
+    return 1.0 - slopes_(0) + slopes_.dot(weights);
+  }
+
+ private:
+  static constexpr Eigen::Index kTaps = 96;
+  Eigen::MatrixXd power_;
+  Eigen::VectorXd shared_;
+  double truth_power_ = 0.0;
+  Eigen::VectorXd slopes_;  ///< of the delayed samples' means on the truth's
+};
+
+void scale_factor_rows(const std::vector<gyrod::test::DriveRow>& rows) {
+  constexpr std::array kScaleFactors = {0.943, 0.979, 0.995};
+  std::printf("%-12s | %14s | RMSE with", "row", "best: RMSE, sf");
+  for (const double wanted : kScaleFactors) std::printf(" %.3f ", wanted);
+  for (const auto& row : rows) {
+    const LinearFilters filters(row);
+    const Eigen::VectorXd best = filters.best();
+    std::printf("\n%-12s | %7.4f %6.3f | %9s", row.name.c_str(), filters.rmse(best),
+                filters.scale_factor(best), "");
+    for (const double wanted : kScaleFactors) std::printf(" %6.4f", filters.rmse(filters.best_with(wanted)));
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -79,8 +160,11 @@ int main(int argc, char** argv) {
     return 1;
   }
   const auto rows = gyrod::test::drive_rows();
-  if (argc > 1 && std::strcmp(argv[1], "--all") == 0) {
+  const std::string wanted = argc > 1 ? argv[1] : "";
+  if (wanted == "--all") {
     all_rows(rows);
+  } else if (wanted == "--scale-factor") {
+    scale_factor_rows(rows);
   } else {
     butterworth_rows(rows);
   }
