@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/denoise/window_report.hpp"
-#include "core/joint/explained_share.hpp"
 #include "core/joint/noise_tracker.hpp"
 #include "core/joint/start_noise.hpp"
 #include "stream/hop_schedule.hpp"
 #include "stream/joint_method.hpp"
+#include "stream/others_noise.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -124,11 +124,11 @@ class SlowLoop {
   const stream::Model* fit() {
     std::array<double, stream::kAxes> noise{};
     std::array<stream::WindowInput, stream::kAxes> windows;
-    for (std::size_t axis = 0; axis < stream::kAxes; ++axis) noise[axis] = models_[axis]->noise_variance();
     for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
+      noise[axis] = models_[axis]->noise_variance();
       windows[axis] = window_of(axis);
-      windows[axis].others_noise = core::least_of_others(noise, axis);
     }
+    stream::tell_others_noise(windows, noise);
     const bool alone = core::belief_in(windows[axis_].noise) == core::NoiseBelief::kColour;
     if (!alone) method_->compare(windows);
     for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {

@@ -21,12 +21,15 @@ constexpr double kLargestInnovation = 2.0;
 /// believed". Numbers of samples are those of the design's rate; at higher ones the seconds are the same (core::JointScale::memory()).
 constexpr double kLeastFitting = 0.8;
 constexpr double kLargestFitting = 1.6;
+/// Where nothing is believed of the noise, nothing is broken by noise that is weaker than a window's guess: up to half of its power.
+constexpr double kLeastGuessed = 0.5;
+constexpr double kLeastGuessedFitting = 0.6;
 constexpr double kLeastSpell = 128.0;
 /// The noise tracker has to disagree, or to agree, for so many samples: windows that are short yet, after a start, tell the level to a factor only.
 constexpr double kSteady = 512.0;
 
-/// Rates further apart than this, in parts, are not two estimates of one.
-constexpr double kOtherRate = 0.1;
+/// Rates further apart than this, in parts, are not two estimates of one: with stamps that come in bursts, estimates are off by a burst in 64 samples.
+constexpr double kOtherRate = 0.25;
 
 struct JointState final : Model {
   void reset() noexcept override {
@@ -107,7 +110,10 @@ class JointFilter final : public SampleFilter {
     bank_.use(joint);
     noise_level_ = joint.noise.shown_level();
     noise_disagrees_ = joint.noise.disagrees();
-    if (joint.noise.belief() == core::NoiseBelief::kNothing) forget_wrong_noise();
+    if (!has_model_ && joint.noise.has_seen_a_window()) fit_.wrong_noise = noise_disagrees_;
+    has_model_ = true;
+    guesses_ = joint.noise.belief() == core::NoiseBelief::kNothing;
+    if (guesses_) forget_wrong_noise();
     rescale(joint.scale);
     fit_.fallbacks += joint.fallbacks;
   }
@@ -126,6 +132,8 @@ class JointFilter final : public SampleFilter {
     fit_ = {};
     noise_level_ = 1.0;
     noise_disagrees_ = false;
+    has_model_ = false;
+    guesses_ = false;
     unlikely_ = 0;
     forget_wrong_noise();
     rescale({});
@@ -158,9 +166,11 @@ class JointFilter final : public SampleFilter {
   void judge_innovation() noexcept {
     const double mean = bank_.normalised_innovation();
     fit_.normalised_innovation = mean;
+    const double least = guesses_ ? kLeastGuessed : kLeastInnovation;
+    const double least_fitting = guesses_ ? kLeastGuessedFitting : kLeastFitting;
     const bool fits = unlikely_ == 0
-                          ? mean >= kLeastInnovation && mean <= kLargestInnovation
-                          : unlikely_ >= least_spell_ && mean >= kLeastFitting && mean <= kLargestFitting;
+                          ? mean >= least && mean <= kLargestInnovation
+                          : unlikely_ >= least_spell_ && mean >= least_fitting && mean <= kLargestFitting;
     unlikely_ = fits ? 0 : std::min(unlikely_ + 1, least_spell_);
   }
 
@@ -177,6 +187,8 @@ class JointFilter final : public SampleFilter {
   ModelFit fit_;
   double noise_level_ = 1.0;  ///< power, in parts of the believed one
   bool noise_disagrees_ = false;
+  bool guesses_ = false;    ///< nothing is believed of the noise
+  bool has_model_ = false;  ///< since a reset, which what models remember of the noise outlasts
   unsigned least_spell_ = static_cast<unsigned>(kLeastSpell);  ///< samples
   unsigned steady_ = static_cast<unsigned>(kSteady);           ///< samples
   unsigned unlikely_ = 0;   ///< samples that the innovations have been so, least_spell_ at most

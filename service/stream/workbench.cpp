@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/joint/explained_share.hpp"
+#include "stream/others_noise.hpp"
 
 namespace gyrod::stream {
 namespace {
@@ -100,10 +100,9 @@ void Workbench::fit(ModelTool& tool, Channel& channel, const WindowJob& job) noe
     noise[axis] = channel.fast_loop->model(axis).noise_variance();
   std::array<WindowInput, kAxes> windows;
   const std::size_t room = tool.window.size() / kAxes;
-  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
     windows[axis] = input(std::span(tool.window).subspan(axis * room, room), channel, job, axis);
-    windows[axis].others_noise = core::least_of_others(noise, axis);
-  }
+  tell_others_noise(windows, noise);
   tool.method->compare(windows);
   for (std::size_t axis = 0; axis < kAxes; ++axis)
     tool.method->fit(windows[axis], channel.fast_loop->model(axis), report_.axis[axis]);

@@ -21,7 +21,6 @@ FilterBlock colour_block(const NoiseModel& noise) noexcept {
 }  // namespace
 
 void JointFit::design(JointModel& model) noexcept {
-  model.fallbacks = 0;
   model.noise_variance = seen_noise();
   const bool band = max_signal_cycles_ < 0.5;
   const double left_out_variance = unit_ * left_out();

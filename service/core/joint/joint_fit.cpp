@@ -74,6 +74,7 @@ void JointFit::follow_noise(std::span<const double> window, const NoiseModel& no
 
 void JointFit::fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,
                    WindowReport& report) noexcept {
+  model.fallbacks = 0;
   if (!look_at(window, noise, model, report)) return;
   pruned_tapers_.prewhitened_spectrum(centred_, pruned_periodogram_);
   const Tone tone = find_motion_tone();
@@ -105,7 +106,7 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
   model.noise.observe(periodogram_, whittle_.noise(), believed, new_share(), scale_.forgetting(new_share()),
-                      own_);
+                      own_, static_cast<double>(centred_.size()) / static_cast<double>(max_samples_));
   const NoiseShape& shape = model.noise.shape();
   if (belief == NoiseBelief::kColour) {
     noise_ = scaled(without_lines(noise_), std::sqrt(shape.level));

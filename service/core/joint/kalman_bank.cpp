@@ -121,7 +121,7 @@ bool KalmanBank::follow(double sample) noexcept {
       lost = true;
       continue;
     }
-    fit += members_[i].weight * surprise[i];
+    fit += members_[i].weight * std::min(surprise[i], kMostToMean);
     weights += members_[i].weight;
   }
   ++count_;

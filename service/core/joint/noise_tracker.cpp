@@ -119,8 +119,8 @@ void NoiseTracker::restate(std::span<const double> noise, const NoiseModel& beli
 }
 
 void NoiseTracker::observe(std::span<const double> periodogram, std::span<const double> noise,
-                           const NoiseModel& believed, double share, double forgetting,
-                           const BandPower& own) noexcept {
+                           const NoiseModel& believed, double share, double forgetting, const BandPower& own,
+                           double length) noexcept {
   assert(periodogram.size() == noise.size() && periodogram.size() > kNoiseBands);
   if (believed != believed_ || weight_ == 0.0) restate(noise, believed);
   if (!std::ranges::all_of(ratio_, [](double ratio) { return std::isfinite(ratio); })) {
@@ -133,7 +133,7 @@ void NoiseTracker::observe(std::span<const double> periodogram, std::span<const 
   const double growth =
       1.0 + forgetting * (belief == NoiseBelief::kColour ? kForgettingMeasured : kForgetting);
   const double margin = 1.0 + kFirstMargin * std::max(0.0, 1.0 - weight_) / weight_;
-  const double part = std::min(weight_, 1.0);
+  const double part = std::min({weight_, length, 1.0});
   const double noise_unrest = kUnrest / (2.0 * static_cast<double>(periodogram.size() - 1) * part);
   BandPower bounded{};
   for (std::size_t band = 0; band < kNoiseBands; ++band) {

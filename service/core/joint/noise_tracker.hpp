@@ -33,8 +33,12 @@ class NoiseTracker {
   /// @param share how much of a window is new since the last one, 0..1: hop / window
   /// @param forgetting the same in parts of the design's window, in seconds (JointScale::forgetting()): by that the least is forgotten
   /// @param own how much of each band no other axis of the sensor shares (SharedMotion): what is shared is motion
+  /// @param length of the window, in parts of the longest: those after a gap are short, and of noise restless
   void observe(std::span<const double> periodogram, std::span<const double> noise, const NoiseModel& believed,
-               double share, double forgetting, const BandPower& own = kAllOwn) noexcept;
+               double share, double forgetting, const BandPower& own = kAllOwn, double length = 1.0) noexcept;
+
+  /// Whether what was observed is a window in all: not only the beginning of one.
+  [[nodiscard]] bool has_seen_a_window() const noexcept { return weight_ >= 1.0; }
 
   /// Power of the noise in parts of the believed one, and its tilt where no colour is believed (likely_shape()).
   /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1. Above 1 the smaller of

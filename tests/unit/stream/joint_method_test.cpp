@@ -13,6 +13,7 @@
 
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
+#include "stream/others_noise.hpp"
 #include "support/signals.hpp"
 
 namespace gyrod::stream {
@@ -129,6 +130,28 @@ TEST(JointMethod, TakesNoiseThatIsNotKnownForNoMoreThanTwiceTheQuietestAxiss) {
   }
 }
 
+// The axis that hangs was once fitted to a step of its converter.
+TEST(OthersNoise, IsNotThatOfAnAxisThatHardlyChanges) {
+  const Signal moving = joint_window(1);
+  Signal stuck(kJointWindow, 0.5);
+  stuck[100] = 0.5001;
+  Signal coarse = moving;
+  for (double& value : coarse) value = std::round(4.0 * value) / 4.0;
+  std::array<WindowInput, kAxes> windows;
+  windows[0].samples = moving;
+  windows[1].samples = coarse;
+  windows[2].samples = stuck;
+  ASSERT_FALSE(hardly_changes(coarse));
+  tell_others_noise(windows, {3.0, 2.0, 1e-9});
+  EXPECT_EQ(windows[0].others_noise, 2.0);
+  EXPECT_EQ(windows[1].others_noise, 3.0);
+  EXPECT_EQ(windows[2].others_noise, 2.0);
+  windows[2].samples = moving;
+  tell_others_noise(windows, {3.0, 2.0, 1e-9});
+  EXPECT_EQ(windows[0].others_noise, 1e-9);
+  EXPECT_FALSE(hardly_changes({}));
+}
+
 // Nothing known, bounded by other axes; a level alone; and a colour.
 TEST(JointMethod, FollowsTheNoiseAsItsFitsDo) {
   for (const core::NoiseModel& noise : {core::NoiseModel{}, core::white_noise(kJointNoise), with_a_line()}) {
@@ -151,7 +174,8 @@ TEST(JointMethod, FollowsTheNoiseAsItsFitsDo) {
   }
 }
 
-// A window in which nothing changes leaves the model as it is, but for what is of another rate. It is so from a tenth of the rate on, however slowly.
+// A window in which nothing changes leaves the model as it is, but for what is of another rate. It is so from a quarter of the rate on, however slowly: with stamps in bursts
+// of 9 samples two estimates of one rate are 12.7 % apart.
 TEST(JointMethod, KnowsNoNoiseOfAnotherRate) {
   const Signal constant(kJointWindow, 0.5);
   const auto left_at = [&constant](const std::vector<double>& rates_hz) {
@@ -160,10 +184,10 @@ TEST(JointMethod, KnowsNoNoiseOfAnotherRate) {
     for (const double rate_hz : rates_hz) axis.fit(constant, rate_hz);
     return axis.model->noise_variance() > 0.0;
   };
-  EXPECT_TRUE(left_at({0.0, 109.0, 91.0})) << "one rate, estimated again";
-  EXPECT_FALSE(left_at({111.0}));
-  EXPECT_FALSE(left_at({89.0}));
-  EXPECT_FALSE(left_at({106.0, 112.0})) << "step by step";
+  EXPECT_TRUE(left_at({0.0, 124.0, 76.0, 101.6, 88.9})) << "one rate, estimated again";
+  EXPECT_FALSE(left_at({126.0}));
+  EXPECT_FALSE(left_at({74.0}));
+  EXPECT_FALSE(left_at({115.0, 126.0})) << "step by step";
 }
 
 TEST(JointMethod, AModelOfWindowsAtAnotherRateIsThatOfAFreshOne) {

@@ -109,7 +109,6 @@ TEST_F(MisfitOfAFilter, AsksForTheSameSecondsOfNoiseThatIsNotAsBelieved) {
   }
 }
 
-// Entered where the mean of the innovations leaves 0.7 to 2; left within 0.8 to 1.6, 128 samples later at the earliest.
 // A sensor may forget what it believed, as where a level that was learned is far too high. Then nothing is wrong, and there is nothing to be a part of.
 TEST_F(MisfitOfAFilter, IsOverWhereNothingIsBelievedAnyMore) {
   use(100.0, 9.0);
@@ -122,6 +121,33 @@ TEST_F(MisfitOfAFilter, IsOverWhereNothingIsBelievedAnyMore) {
   EXPECT_EQ(filter_->model_fit().noise_ratio, 1.0);
 }
 
+// A gap ends what the filter knows, and not what the models have seen: a calibration that is wrong is so from the first of them on.
+TEST_F(MisfitOfAFilter, SaysAtOnceAfterAGapThatTheNoiseIsNotAsBelieved) {
+  use(100.0, 9.0);
+  after(1.0, 1000);
+  ASSERT_TRUE(filter_->model_fit().wrong_noise);
+  filter_->reset();
+  after(1.0, 10);
+  EXPECT_FALSE(filter_->model_fit().wrong_noise) << "no model yet";
+  use(100.0, 9.0);
+  after(1.0, 1);
+  EXPECT_TRUE(filter_->model_fit().wrong_noise);
+}
+
+// What a window guesses of noise that nobody knows may be too much by half where the road has tones.
+TEST_F(MisfitOfAFilter, IsNotSaidOfAGuessThatIsTooHighByHalf) {
+  const auto flagged_at = [this](double believed, double variance) {
+    open(100.0);
+    use(100.0, believed);
+    return after(variance, 2000).back();
+  };
+  EXPECT_TRUE(flagged_at(1.0, 0.6));
+  EXPECT_FALSE(flagged_at(0.0, 0.6));
+  EXPECT_TRUE(flagged_at(0.0, 0.4));
+  EXPECT_TRUE(flagged_at(0.0, 3.0));
+}
+
+// Entered where the mean of the innovations leaves 0.7 to 2; left within 0.8 to 1.6, 128 samples later at the earliest.
 TEST_F(MisfitOfAFilter, HasTheLimitsOfTheManual) {
   std::size_t lasted = 0;
   std::size_t entered_above = 0;

@@ -138,7 +138,9 @@ TEST(JointFit, AConstantWindowLeavesTheModelAlone) {
   fit.fit(window(), {}, model, report);
   ASSERT_TRUE(model.usable());
   const JointModel before = model;
+  model.fallbacks = 2;
   fit.fit(Signal(kWindow, 3.0), {}, model, report);
+  EXPECT_EQ(model.fallbacks, 0U) << "of the window before";
   EXPECT_EQ(model.mean, before.mean);
   for (std::size_t i = 0; i < core::kMembers; ++i) expect_same(model.members[i], before.members[i]);
   EXPECT_EQ(report.mean, 3.0);

@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/joint/joint_fit.hpp"
 #include "core/joint/noise_tracker.hpp"
+#include "support/signals.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -33,6 +36,31 @@ NoiseTracker after_bands(const BandPower& bands) {
 }
 
 double level_of_bands(const BandPower& bands) { return after_bands(bands).level(); }
+
+// A gap leaves what the tracker knows and makes windows short: noise is restless in them because they hold little of it.
+TEST(NoiseLevel, OfASensorThatIsLouderThanBelievedOutlastsGaps) {
+  constexpr std::size_t kLongest = 1024;
+  constexpr std::size_t kStretch = 256;
+  constexpr double kLouder = 1.3;
+  core::NoiseModel believed = core::white_noise(0.9);
+  believed.colour_order = 1;
+  believed.colour[0] = 0.1;
+  believed.colour_variance = 0.1;
+  const auto seen = testing::times(testing::white_noise(40 * kStretch, 7), std::sqrt(kLouder));
+  JointFit fit(kLongest);
+  JointModel model;
+  WindowReport report;
+  const auto take = [&](std::size_t begin, std::size_t longest) {
+    for (std::size_t size = JointFit::kMinSamples; size <= longest; size += 32)
+      fit.fit(std::span(seen).subspan(begin, size), believed, model, report);
+  };
+  for (std::size_t begin = 0; begin + kLongest <= seen.size() / 2; begin += kLongest) take(begin, kLongest);
+  const double before = model.noise.level();
+  ASSERT_GT(before, 1.2);
+  for (std::size_t begin = seen.size() / 2; begin + kStretch <= seen.size(); begin += kStretch)
+    take(begin, kStretch);
+  EXPECT_NEAR(model.noise.level(), before, 0.15);
+}
 
 // What other axes share of a band is motion: where a level alone is believed it raises none, and makes none less than believed. Where a colour is
 // known, the bands themselves tell.
