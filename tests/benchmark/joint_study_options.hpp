@@ -36,6 +36,9 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("bandwidth_cycles", options.bandwidth_cycles);
   set("tone_prominence", options.tone_prominence);
   set("tone_pole", options.tone_pole);
+  set("resonances", options.resonances);
+  set("resonance_gain", options.resonance_gain);
+  set("resonance_iterations", options.resonance_iterations);
   set("prune_gain", options.prune_gain);
   set("pole_factor", options.pole_factor);
   set("level_pole", options.level_pole);

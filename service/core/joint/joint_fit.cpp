@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -205,24 +206,43 @@ void JointFit::start_mode(std::span<const double> imf, const ImfFigures& figures
   if (slow || mode.drive > 0.0) full_.add(mode);
 }
 
+/// A mode to start from, of this variance in the periodogram's unit, with poles of this radius.
+SpectralMode JointFit::oscillation(double cycles, double power, double pole) const noexcept {
+  std::array<double, kModeOrder + 1> r{};
+  for (std::size_t lag = 0; lag < r.size(); ++lag) {
+    r[lag] = power * portable_sine_cosine(cycles * static_cast<double>(lag)).cosine;
+    power *= pole;
+  }
+  return whittle_.mode_of(r, false);
+}
+
 /// An IMF holds a tone together with much else, and its mode is too wide for it: the tone gets one of its own.
 void JointFit::start_tone(const Tone& tone) noexcept {
   if (!(tone.amplitude > 0.0) || full_.full()) return;
-  std::array<double, kModeOrder + 1> r{};
-  double power = tone.amplitude * tone.amplitude / 2.0;
-  for (std::size_t lag = 0; lag < r.size(); ++lag) {
-    r[lag] = power * portable_sine_cosine(tone.frequency_cycles * static_cast<double>(lag)).cosine;
-    power *= options_.tone_pole;
-  }
-  SpectralMode mode = whittle_.mode_of(r, false);
+  SpectralMode mode =
+      oscillation(tone.frequency_cycles, tone.amplitude * tone.amplitude / 2.0, options_.tone_pole);
   mode.tone = true;
   if (mode.drive > 0.0) full_.add(mode);
+}
+
+/// So does what is wider, or another tone, where the modes so far leave it unexplained.
+void JointFit::find_resonances() noexcept {
+  for (int i = 0; i < options_.resonances && !full_.full(); ++i) {
+    const WhittleFit::Band band = whittle_.least_explained(full_);
+    if (!(band.gain >= options_.resonance_gain && band.power > 0.0)) return;
+    const double pole = portable_exp(-std::numbers::pi * band.width_cycles);
+    const SpectralMode mode = oscillation(band.centre_cycles, band.power, pole);
+    if (!(mode.drive > 0.0)) return;
+    full_.add(mode);
+    whittle_.iterate(full_, options_.resonance_iterations);
+  }
 }
 
 /// The full set in the eyes of the tapers that look at the newest samples most, the pruned one in the eyes of the others. The first is left in
 /// whittle_.
 void JointFit::fit_modes() noexcept {
   whittle_.iterate(full_, options_.pruned_iterations);
+  find_resonances();
   pruned_ = full_;
   for (double& power : pruned_periodogram_) power /= unit_;
   whittle_.observe(pruned_periodogram_);

@@ -69,6 +69,8 @@ class JointFit {
   void describe(std::span<const double> imf, WindowReport& report) const noexcept;
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
   void start_tone(const Tone& tone) noexcept;
+  [[nodiscard]] SpectralMode oscillation(double cycles, double power, double pole) const noexcept;
+  void find_resonances() noexcept;
   void fit_modes() noexcept;
   [[nodiscard]] double prior_of_full() noexcept;
   void design(JointModel& model) noexcept;

@@ -66,6 +66,13 @@ struct JointOptions {
   double tone_prominence = 12.0;
   /// Radius of the poles that this mode starts with: much less than a window can tell, so that the fit finds the width. Range 0..1.
   double tone_pole = 0.999;
+  /// Bands in which the modes explain too little after their first iterations get a mode each, so many at the most. IMFs are an octave wide, and hold
+  /// the tones of an engine or what resonates with much else. Range 0..9.
+  int resonances = 3;
+  /// Twice the log-likelihood that a better level of the band alone would buy, at least: white noise shows as much in one of eight windows. Range 1..1e12.
+  double resonance_gain = 15.0;
+  /// Iterations of all modes after each of them. Range 0..100.
+  int resonance_iterations = 5;
   /// A mode is kept by pruning where it buys at least this much of twice the log-likelihood. Range 0..1e4.
   double prune_gain = 20.0;
   /// Roots of every mode are pulled in by this factor, so that the filter forgets. Range 0.9..1.
@@ -84,7 +91,7 @@ struct JointOptions {
   double still_log_prior = -0.5;
   /// Where pruning leaves nothing but the slow mode, the full set and the rough member weigh e^(g/2) of that a priori, g what twice the log-likelihood of
   /// the full set is beyond that of the pruned one and this: what the window's noise alone buys. Range 0..1e4.
-  double full_evidence = 15.0;
+  double full_evidence = 20.0;
   /// At least so much. Range 0..1.
   double least_full_prior = 0.25;
   /// Probability that another member than before answers best from the next sample on. Range 0..1.

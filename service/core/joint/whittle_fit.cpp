@@ -18,6 +18,12 @@ constexpr std::size_t kLags = kModeLags;
 constexpr double kSlowBandwidth = 1e-5;
 /// Of the variance of a mode that is not slow, what the bin at frequency 0 holds at the most.
 constexpr double kMostInABin = 0.9;
+/// A line of the noise that is stronger than this, in parts of the noise around it, may be stronger still, or beside its place: what is missing there
+/// is not motion's.
+constexpr double kLineStandsOut = 0.2;
+/// Bands where modes may be missing begin here: below, the slow mode's foot is what is not quite right.
+constexpr std::size_t kFirstBin = 8;
+constexpr std::size_t kNarrowestBand = 4;
 
 }  // namespace
 
@@ -140,6 +146,44 @@ double WhittleFit::log_likelihood(const ModeSet& modes) noexcept {
     sum -= (end ? 0.5 : 1.0) * observed_[k] / sum_[k];
   }
   return sum - between.value() - 0.5 * ends.value();
+}
+
+/// Up to each bin: I / M, in deviation_, and I - M.
+void WhittleFit::sum_up_missing(std::span<double> power) noexcept {
+  double ratios = 0.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < bins_; ++k) {
+    double ratio = observed_[k] / sum_[k];
+    if (noise_[k] > (1.0 + kLineStandsOut) * rest_[k]) ratio = std::min(ratio, 1.0);
+    ratios += ratio;
+    sum += (ratio - 1.0) * sum_[k];
+    deviation_[k] = ratios;
+    power[k] = sum;
+  }
+}
+
+WhittleFit::Band WhittleFit::least_explained(const ModeSet& modes) noexcept {
+  assert(!modes.full());
+  sum_spectra(modes);
+  const std::span<double> power = row(modes.size());
+  sum_up_missing(power);
+  const double cycles_a_bin = 0.5 / static_cast<double>(bins_ - 1);
+  Band least;
+  for (std::size_t width = kNarrowestBand; width <= bins_ / 8; width *= 2) {
+    const auto bins = static_cast<double>(width);
+    for (std::size_t first = kFirstBin; first + width < bins_; first += width / 4) {
+      const std::size_t last = first + width - 1;
+      const double mean = (deviation_[last] - deviation_[first - 1]) / bins;
+      if (!(mean > 1.0)) continue;
+      const double gain = 2.0 * bins * (mean - 1.0 - portable_log(mean));
+      if (!(gain > least.gain)) continue;
+      least = {.centre_cycles = (static_cast<double>(first) + 0.5 * (bins - 1.0)) * cycles_a_bin,
+               .width_cycles = bins * cycles_a_bin,
+               .power = 2.0 * (power[last] - power[first - 1]) * cycles_a_bin,
+               .gain = gain};
+    }
+  }
+  return least;
 }
 
 WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {

@@ -58,6 +58,18 @@ class WhittleFit {
   /// ln L of these modes, up to a constant.
   [[nodiscard]] double log_likelihood(const ModeSet& modes) noexcept;
 
+  /// A band of the window's spectrum, and what is missing there.
+  struct Band {
+    double centre_cycles = 0.0;  ///< cycles per sample
+    double width_cycles = 0.0;
+    double power = 0.0;  ///< variance that modes and noise do not explain, in the periodogram's unit
+    double gain = 0.0;   ///< 0 where no band has more power than is explained
+  };
+  /// The band that these modes explain least: of those of 4, 8, 16 ... bins, an eighth of all at the most, the one whose mean m of I / M buys most,
+  ///   gain = 2 w (m - 1 - ln m),   w bins,
+  /// of 2 ln L if all of it were m times as strong. What a line of the noise may hold is not missing. @pre !modes.full()
+  [[nodiscard]] Band least_explained(const ModeSet& modes) noexcept;
+
   /// Where a mode's power lies, and how much it is.
   struct Weight {
     double centre_cycles =
@@ -73,6 +85,7 @@ class WhittleFit {
   void sum_noise(const NoiseModel& noise) noexcept;
   void sum_spectra(const ModeSet& modes) noexcept;
   void bound_slowest_bin(const ModeSet& modes) noexcept;
+  void sum_up_missing(std::span<double> power) noexcept;
   void maximise(SpectralMode& mode, std::span<const double> spectrum) noexcept;
   [[nodiscard]] double gain_of(std::span<const double> spectrum) const noexcept;
   [[nodiscard]] std::span<double> row(std::size_t mode) noexcept {
@@ -91,7 +104,7 @@ class WhittleFit {
   std::vector<double> rest_;     ///< R without its lines
   std::vector<double> observed_;
   std::vector<double> sum_;        ///< M
-  std::vector<double> deviation_;  ///< (I - M) / M^2
+  std::vector<double> deviation_;  ///< (I - M) / M^2; in least_explained() the sums of I / M
   std::vector<double> spectra_;    ///< kMaxModes rows: S_j
 };
 

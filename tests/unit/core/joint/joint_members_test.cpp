@@ -189,7 +189,7 @@ TEST(JointMembers, OfTheFullSetCountByTheirLikelihood) {
   const Signal z = testing::white_noise(kMembersWindow, 5);
   JointOptions options;
   options.least_full_prior = 0.0;
-  options.full_evidence = 40.0;
+  options.full_evidence = 60.0;
   const double prior = made_of(z, core::white_noise(1.0), options).model.full_prior;
   options.full_evidence += 2.0 * std::log(3.0);
   ASSERT_LT(prior, 1.0);

@@ -24,14 +24,14 @@ struct JointOutput {
 
 /// A fit every 32 samples from `first` samples on, over windows that grow up to 1024; each model is used one hop later.
 inline JointOutput run_joint(const Signal& z, const core::NoiseModel& noise, std::size_t lag,
-                             std::size_t first = core::JointFit::kMinSamples,
-                             double max_signal_cycles = 0.5) {
+                             std::size_t first = core::JointFit::kMinSamples, double max_signal_cycles = 0.5,
+                             const core::JointOptions& options = {}) {
   constexpr std::size_t kHop = 32;
   constexpr std::size_t kWindow = 1024;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  core::JointFit fit(kWindow);
+  core::JointFit fit(kWindow, options);
   fit.set_max_signal(max_signal_cycles);
-  core::KalmanBank bank({}, lag);
+  core::KalmanBank bank(options, lag);
   core::JointModel model;
   core::WindowReport report;
   JointOutput out;
