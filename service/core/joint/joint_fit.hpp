@@ -32,7 +32,8 @@ class JointFit {
   static constexpr std::size_t kMinSamples = 64;
 
   /// @param max_samples longest window, at least kMinSamples
-  /// @throws std::invalid_argument for an option outside its range
+  /// @pre options within their ranges
+  /// @throws std::invalid_argument for more IMFs than a report holds
   explicit JointFit(std::size_t max_samples, const JointOptions& options = {});
 
   /// From here on modes whose power lies above this frequency, cycles per sample, count as noise: they are part of what the filter

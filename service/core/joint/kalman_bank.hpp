@@ -32,8 +32,8 @@ struct BankEstimates {
 /// variance_factor. With look-ahead w (v / u)^b / sum take the place of w: v are weights by the same rule, of how well a member answers for
 /// z[t-lag] from all samples but that one, and u is what w was then (bank_hindsight.cpp). What is left of the step that the last new model made (a
 /// fifth less with every sample) is taken back, so that a new model begins where the last one was. What the noise cannot have been goes back
-/// (residual_check.hpp), and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed. With look-ahead, what the
-/// answer lacks in size is added (gain_correction.hpp).
+/// (residual_check.hpp), and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed. What the answer
+/// lacks in size is added (gain_correction.hpp).
 /// Before the first model, local levels answer (start_levels.hpp).
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -136,7 +136,7 @@ class KalmanBank {
   std::array<Member, kMembers> members_{};
   std::array<double, kMembers> prior_{};
   double prior_sum_ = 1.0;  ///< of the members that are usable
-  /// P_L of every member at lag 0 and at lag_.
+  /// P_L of every member at every lag.
   std::array<std::array<double, kMaxLag + 1>, kMembers> error_variance_{};
   std::array<double, kRing> residuals_{};  ///< of the estimates at lag 0, by time
   SlowMotion motion_;

@@ -21,7 +21,7 @@ constexpr double kRise = 1.15;
 /// What is seen in the first window counts from this part of it on, and for more by this times what is missing of it over what there is.
 constexpr double kFirst = 0.3;
 constexpr double kFirstMargin = 0.3;
-/// What the least grows by in a window's length: noise that has become twice as strong is believed within six minutes, and where it was measured at
+/// What the least grows by in the design's window, 8.5 s: noise that has become twice as strong is believed within six minutes, and where it was measured at
 /// rest, within minutes that it is a quarter stronger.
 constexpr double kForgetting = 0.03;
 constexpr double kForgettingMeasured = 0.01;
@@ -51,9 +51,9 @@ constexpr double kMostUnrest = 3.0;
 constexpr double kAboveQuietest = 1.25;
 constexpr double kFirstQuietest = 0.12;
 constexpr double kQuietestMargin = 0.3;
-/// And where these are below this, the level is believed to be as low.
+/// Where the quietest four bands are below this, the level is believed to be as low.
 constexpr double kFarBelow = 0.5;
-/// The same by so many bands that are noise alone of a likely shape.
+/// A level is also believed by so many bands that are noise alone of a likely shape.
 constexpr std::size_t kFewestAlone = 5;
 /// Where a colour is believed, and noise alone would have to be tilted against it by more than this, a road is.
 constexpr double kMostTilt = 0.6;

@@ -44,7 +44,7 @@ class NoiseTracker {
   /// Where one is, the level is the mean of the bands that do not hold motion, where that is below 1. Above 1 the smaller of
   /// mean^1.5 and (mean of the quietest three / 1.04)^3, and at least 1. Not above 1 where half of the bands hold motion: on a rough road every band holds
   /// some; nor where the quietest change from window to window by more than noise does; and, as motion comes and goes while noise stays, for more than
-  /// 1.15 times the least that it has shown no band counts. That is forgotten by a hundredth a window's length. 1 and white before anything was observed.
+  /// 1.15 times the least that it has shown no band counts. That is forgotten by a hundredth in the design's 8.5 s. 1 and white before anything was observed.
   /// Where nothing is believed, bands are what no other axis shares of them; where a level alone is, of a level above 1 the part that no other axis
   /// shares of the quietest counts.
   /// A level that is believed wrong by a factor is followed all the way, from 1e-3 on: too high, as motion only adds; too low by more than 1.4, where
