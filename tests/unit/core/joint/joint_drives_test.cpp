@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <tuple>
@@ -28,20 +29,26 @@ NoiseModel calibrated(const test::DriveRow& row) {
   return scaled(still_noise(row.still_dps).value(), kNoiseMargin);
 }
 
-struct Scored {
+class Scored {
+ public:
+  explicit Scored(const test::NoiseChoice& noise) : rows(test::drive_rows(noise)), figures_(rows.size()) {}
+
+  /// With calibrated noise.
+  const test::JointFigures& figures(std::size_t row) {
+    if (!figures_[row]) figures_[row] = test::joint_figures(rows[row], calibrated(rows[row]), {});
+    return *figures_[row];
+  }
+
   std::vector<test::DriveRow> rows;
-  std::vector<test::JointFigures> figures;  ///< with calibrated noise
+
+ private:
+  std::vector<std::optional<test::JointFigures>> figures_;
 };
 
 /// Rows are read, and scored, once.
-const Scored& scored(const test::NoiseChoice& noise) {
+Scored& scored(const test::NoiseChoice& noise) {
   static std::map<std::tuple<std::string, std::size_t, std::size_t>, Scored> known;
-  Scored& result = known[{noise.file, noise.axis, noise.start}];
-  if (!result.rows.empty()) return result;
-  result.rows = test::drive_rows(noise);
-  for (const test::DriveRow& row : result.rows)
-    result.figures.push_back(test::joint_figures(row, calibrated(row), {}));
-  return result;
+  return known.try_emplace({noise.file, noise.axis, noise.start}, noise).first->second;
 }
 
 /// A level that is wrong, and no colour; or nothing at all.
@@ -77,12 +84,14 @@ TEST_P(JointDrives, AreAheadOfTheButterworthTunedOnTheirTruth) {
   if (!test::has_drive_rows(setting.noise)) GTEST_SKIP() << "no recordings in " << test::data_folder();
   test::JointSetting on;
   on.window = setting.window;
-  const Scored& known = scored(setting.noise);
+  Scored& known = scored(setting.noise);
   for (std::size_t k = 0; k < known.rows.size(); ++k) {
     test::DriveRow row = known.rows[k];
     if (setting.axes.find("xyz"[row.axis]) == std::string::npos) continue;
-    test::ByLag ours = known.figures[k].rmse;
-    if (setting.differs()) {
+    test::ByLag ours{};
+    if (!setting.differs()) {
+      ours = known.figures(k).rmse;
+    } else {
       const NoiseModel noise =
           setting.white_level != 0.0 ? believed_white(row, setting.white_level) : calibrated(row);
       test::resample(row, setting.rate_hz);
@@ -94,27 +103,29 @@ TEST_P(JointDrives, AreAheadOfTheButterworthTunedOnTheirTruth) {
   }
 }
 
-// Not ahead: 09 z under 0.12 deg/s of imu1 z, whose line is an eighth from where it was calibrated; z under 0.35 and 1.05 deg/s, where a window is short; and where
-// the colour is unknown and the level wrong, for which the design allows 10 %.
+// Where z alone is judged, x and y are ahead by more (docs/measured.md). Not ahead: 09 z under 0.12 deg/s of imu1 z, whose line is an eighth from where it was
+// calibrated; z under 0.35 and 1.05 deg/s, where a window is short; and where the colour is unknown and the level wrong, for which the design allows 10 %.
 INSTANTIATE_TEST_SUITE_P(
     Settings, JointDrives,
-    testing::Values(
-        Setting{"imu1_x", noise_of(1, 'x', 0)}, Setting{"imu1_x_from_500000", noise_of(1, 'x', 500'000)},
-        Setting{"imu2_y", noise_of(2, 'y', 0)}, Setting{"imu2_y_from_200000", noise_of(2, 'y', 200'000)},
-        Setting{"imu4_x", noise_of(4, 'x', 0)}, Setting{"imu4_z", noise_of(4, 'z', 0)},
-        Setting{"imu4_z_from_200000", noise_of(4, 'z', 200'000)},
-        Setting{"imu1_z", noise_of(1, 'z', 0), 1.01}, Setting{"imu2_z", noise_of(2, 'z', 0)},
-        Setting{"level_20_percent_low", noise_of(1, 'x', 0), 1.01, 0.8},
-        Setting{"level_20_percent_high", noise_of(1, 'x', 0), 1.02, 1.2},
-        Setting{"level_20_percent_low_of_imu4_x", noise_of(4, 'x', 0), 1.01, 0.8},
-        Setting{"level_20_percent_low_of_imu2_y", noise_of(2, 'y', 200'000), 1.02, 0.8, 120.0, 1024, "z"},
-        Setting{"nothing_known", noise_of(1, 'x', 0), 1.02, kNothing},
-        Setting{"nothing_known_of_imu4_x", noise_of(4, 'x', 0), 1.01, kNothing, 120.0, 1024, "z"},
-        Setting{"at_50_Hz", noise_of(1, 'x', 0), 1.0, 0.0, 50.0},
-        Setting{"at_200_Hz_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 200.0, 1024, "z"},
-        Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.01, 0.0, 400.0, 2048, "z"},
-        Setting{"window_512", noise_of(1, 'x', 0), 1.02, 0.0, 120.0, 512},
-        Setting{"window_2048", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 2048}),
+    testing::Values(Setting{"imu1_x", noise_of(1, 'x', 0)},
+                    Setting{"imu1_x_from_500000_on_z", noise_of(1, 'x', 500'000), 1.0, 0.0, 120.0, 1024, "z"},
+                    Setting{"imu2_y", noise_of(2, 'y', 0)},
+                    Setting{"imu2_y_from_200000", noise_of(2, 'y', 200'000)},
+                    Setting{"imu4_x", noise_of(4, 'x', 0)}, Setting{"imu4_z", noise_of(4, 'z', 0)},
+                    Setting{"imu4_z_from_200000_on_z", noise_of(4, 'z', 200'000), 1.0, 0.0, 120.0, 1024, "z"},
+                    Setting{"imu1_z", noise_of(1, 'z', 0), 1.01}, Setting{"imu2_z", noise_of(2, 'z', 0)},
+                    Setting{"level_20_percent_low", noise_of(1, 'x', 0), 1.01, 0.8},
+                    Setting{"level_20_percent_high_on_z", noise_of(1, 'x', 0), 1.02, 1.2, 120.0, 1024, "z"},
+                    Setting{"level_20_percent_low_of_imu4_x", noise_of(4, 'x', 0), 1.01, 0.8},
+                    Setting{"level_20_percent_low_of_imu2_y", noise_of(2, 'y', 200'000), 1.02, 0.8, 120.0,
+                            1024, "z"},
+                    Setting{"nothing_known", noise_of(1, 'x', 0), 1.02, kNothing},
+                    Setting{"nothing_known_of_imu4_x", noise_of(4, 'x', 0), 1.01, kNothing, 120.0, 1024, "z"},
+                    Setting{"at_50_Hz", noise_of(1, 'x', 0), 1.0, 0.0, 50.0},
+                    Setting{"at_200_Hz_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 200.0, 1024, "z"},
+                    Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.01, 0.0, 400.0, 2048, "z"},
+                    Setting{"window_512_on_z", noise_of(1, 'x', 0), 1.02, 0.0, 120.0, 512, "z"},
+                    Setting{"window_2048_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 2048, "z"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 /// Worst cell of these rows, in parts of the tuned Butterworth's RMSE. @param name part of the row's name
@@ -198,17 +209,20 @@ TEST(JointDrivesBelieved, MayBeWrongByAFactor) {
   }
 }
 
-// The design's table, the rows of which were its un-tuned prototype's: no cell more than 3 % behind, and ahead in the mean.
+/// Four seconds at 120 Hz.
+std::vector<double> stretch(const std::vector<double>& all, std::size_t begin) {
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
+  return {first, first + 480};
+}
+
 // From the drive's first sample to the first model's, and from samples in the middle of it. Raw has 1; what answered before had up to 3.9 at 50 Hz, on axes that shake.
 TEST(JointDrivesBegin, WithAnswersThatAreHardlyWorseThanRawOnes) {
   if (!test::has_drive_rows()) GTEST_SKIP() << "no recordings in " << test::data_folder();
   for (const double rate : {50.0, 120.0}) {
     for (const std::size_t begin : {0U, 2556U, 4044U, 5652U, 7428U}) {
-      for (test::DriveRow& row : test::drive_rows({})) {
-        row.truth_dps.erase(row.truth_dps.begin(),
-                            row.truth_dps.begin() + static_cast<std::ptrdiff_t>(begin));
-        row.noisy_dps.erase(row.noisy_dps.begin(),
-                            row.noisy_dps.begin() + static_cast<std::ptrdiff_t>(begin));
+      for (test::DriveRow row : scored({}).rows) {
+        row.truth_dps = stretch(row.truth_dps, begin);
+        row.noisy_dps = stretch(row.noisy_dps, begin);
         test::resample(row, rate);
         test::JointSetting setting;
         setting.from_s = 0.0;
@@ -222,16 +236,17 @@ TEST(JointDrivesBegin, WithAnswersThatAreHardlyWorseThanRawOnes) {
   }
 }
 
+// The design's table, the rows of which were its un-tuned prototype's: no cell more than 3 % behind, and ahead in the mean.
 TEST(JointDrivesPrototype, IsReachedInEveryCell) {
   if (!test::has_drive_rows()) GTEST_SKIP() << "no recordings in " << test::data_folder();
-  const Scored& known = scored({});
+  Scored& known = scored({});
   double sum = 0.0;
   for (std::size_t k = 0; k < known.rows.size(); ++k) {
     const test::PrototypeRow* prototype = test::prototype_of(known.rows[k]);
     ASSERT_NE(prototype, nullptr) << known.rows[k].name;
     for (std::size_t i = 0; i < prototype->rmse.size(); ++i) {
       const std::size_t at = test::PrototypeRow::kLagIndex[i];
-      const double ratio = known.figures[k].rmse[at] / prototype->rmse[i];
+      const double ratio = known.figures(k).rmse[at] / prototype->rmse[i];
       EXPECT_LT(ratio, 1.03) << prototype->row << ", lag " << test::kJointLags[at];
       sum += std::log(ratio);
     }
@@ -244,13 +259,13 @@ TEST(JointDrivesLearned, AreWithinTwoPercentOfCalibrated) {
   for (const auto& noise :
        {noise_of(1, 'x', 0), noise_of(4, 'x', 0), noise_of(2, 'z', 0), noise_of(4, 'z', 0)}) {
     if (!test::has_drive_rows(noise)) GTEST_SKIP() << "no recordings in " << test::data_folder();
-    const Scored& known = scored(noise);
+    Scored& known = scored(noise);
     for (std::size_t k = 0; k < known.rows.size(); ++k) {
       const test::DriveRow& row = known.rows[k];
       const NoiseModel learned = scaled(test::learned_at_rest(row), kNoiseMargin);
       const test::ByLag ours = test::joint_figures(row, learned, {}).rmse;
       for (std::size_t i = 0; i < ours.size(); ++i)
-        EXPECT_LT(ours[i], 1.02 * known.figures[k].rmse[i])
+        EXPECT_LT(ours[i], 1.02 * known.figures(k).rmse[i])
             << noise.file << ", " << row.name << ", lag " << test::kJointLags[i];
     }
   }
@@ -259,10 +274,10 @@ TEST(JointDrivesLearned, AreWithinTwoPercentOfCalibrated) {
 // The published variance is that of the error: right in the mean of rows, within a factor of 2 on each (0.63 to 1.58 when this was written).
 TEST(JointDrivesVariance, IsThatOfTheError) {
   if (!test::has_drive_rows()) GTEST_SKIP() << "no recordings in " << test::data_folder();
-  const Scored& known = scored({});
+  Scored& known = scored({});
   double sum = 0.0;
   for (std::size_t k = 0; k < known.rows.size(); ++k) {
-    const double ratio = known.figures[k].normalised_error;
+    const double ratio = known.figures(k).normalised_error;
     EXPECT_GT(ratio, 0.5) << known.rows[k].name;
     EXPECT_LT(ratio, 2.0) << known.rows[k].name;
     sum += std::log(ratio);
