@@ -21,10 +21,10 @@ constexpr double kLargestInnovation = 2.0;
 /// believed". Numbers of samples are those of the design's rate; at higher ones the seconds are the same (core::JointScale::memory()).
 constexpr double kLeastFitting = 0.8;
 constexpr double kLargestFitting = 1.6;
+constexpr double kLeastSpell = 128.0;
 /// Where nothing is believed of the noise, nothing is broken by noise that is weaker than a window's guess: up to half of its power.
 constexpr double kLeastGuessed = 0.5;
 constexpr double kLeastGuessedFitting = 0.6;
-constexpr double kLeastSpell = 128.0;
 /// The noise tracker has to disagree, or to agree, for so many samples: windows that are short yet, after a start, tell the level to a factor only.
 constexpr double kSteady = 512.0;
 

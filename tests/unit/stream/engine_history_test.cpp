@@ -153,6 +153,13 @@ class EngineThatLosesSight : public EngineWithHistory {
   static std::uint64_t history_in(const Counts& counts) {
     return counts.rejected[static_cast<std::size_t>(RejectReason::kHistory)];
   }
+  /// The sensor is lost, comes again and sends all that it has sent once more.
+  void expect_the_rest_of(std::size_t sent, std::uint64_t published) {
+    engine_.end_of_stream("imu");
+    engine_.come_again("imu");
+    EXPECT_EQ(engine_.push("imu", counting_samples(sent)), sent - published);
+    expect_conserved(engine_.snapshot().totals);
+  }
   double now_s_ = 100.0;
   RecordingSink sink_;
   Engine engine_{small_options(0), method(), sink_, [this] { return now_s_; }};
@@ -183,10 +190,7 @@ TEST_P(EngineThatLosesSight, PublishesAgainWhatLeftWhenASensorFellSilentBeforeIt
   engine_.fall_silent("imu", ChannelState::kSilent);
   ASSERT_EQ(engine_.snapshot().totals.published, 100U);
   now_s_ += 10.0;
-  engine_.end_of_stream("imu");
-  engine_.come_again("imu");
-  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 150U - published);
-  expect_conserved(engine_.snapshot().totals);
+  expect_the_rest_of(150, published);
 }
 
 // One that was heard again for long had its readers back.
@@ -200,9 +204,7 @@ TEST_P(EngineThatLosesSight, ForgetsASilenceThatIsLongOver) {
   const std::uint64_t published = engine_.snapshot().totals.published;
   ASSERT_GT(published, 150U);
   now_s_ += 5.0;
-  engine_.end_of_stream("imu");
-  engine_.come_again("imu");
-  EXPECT_EQ(engine_.push("imu", counting_samples(200)), 200U - published);
+  expect_the_rest_of(200, published);
 }
 
 // Numbers that are missing are not among those that the window holds.
@@ -246,10 +248,7 @@ TEST_P(EngineThatLosesSight, LostItsReadersInTheLongestOfTheLastSilences) {
   const std::uint64_t published = engine_.snapshot().totals.published;
   ASSERT_GT(published, 60U);
   now_s_ += 3.0;  // the pause
-  engine_.end_of_stream("imu");
-  engine_.come_again("imu");
-  EXPECT_EQ(engine_.push("imu", counting_samples(150)), 150U - published);
-  expect_conserved(engine_.snapshot().totals);
+  expect_the_rest_of(150, published);
 }
 
 TEST_P(EngineThatLosesSight, LostItsReadersInAPauseAndNotInTheHiccupBehindIt) {
@@ -260,10 +259,7 @@ TEST_P(EngineThatLosesSight, LostItsReadersInAPauseAndNotInTheHiccupBehindIt) {
   now_s_ += 1.5;  // the hiccup
   engine_.push("imu", counting_samples(50, 150));
   now_s_ += 0.5;
-  engine_.end_of_stream("imu");
-  engine_.come_again("imu");
-  EXPECT_EQ(engine_.push("imu", counting_samples(200)), 200U - published);
-  expect_conserved(engine_.snapshot().totals);
+  expect_the_rest_of(200, published);
 }
 
 TEST_P(EngineThatLosesSight, TakesASensorThatSendsOnWithoutAnEndForTheSame) {
