@@ -71,8 +71,6 @@ class KalmanBank {
   static_assert(kRing > kMaxLag && (kRing & (kRing - 1)) == 0);
   /// Most that one sample says against a member, in parts of its variance: a million deviations.
   static constexpr double kMostSurprise = 1e12;
-  /// Most that one of them adds to the mean: a knock is over soon, and is to be forgotten soon.
-  static constexpr double kMostToMean = 100.0;
 
   struct Member {
     std::array<double, kMaxStates> x{};

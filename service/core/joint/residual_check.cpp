@@ -8,8 +8,6 @@ namespace {
 
 /// Most that one residual may say, d^2 / R: a million deviations. A knock is over soon, and is to be forgotten soon.
 constexpr double kMostSquare = 1e12;
-/// Most that one residual adds to the mean, d^2 / R.
-constexpr double kMostToMean = 100.0;
 
 }  // namespace
 

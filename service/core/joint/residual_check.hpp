@@ -6,6 +6,9 @@
 
 namespace gyrod::core {
 
+/// Most that one square of a residual or an innovation, in parts of its variance, adds to a mean of them: a knock is over soon, and is to be forgotten soon.
+inline constexpr double kMostToMean = 100.0;
+
 /// Of one output. What a good estimate e takes off a sample z is noise, of a variance R that is known: d^2 / R with d = z - e is 1 at the
 /// most in the mean, and hardly ever above 25. Where it is more, e is what is wrong: a knock that no model expected, smeared by the filters over
 /// what came before and after it. There the sample counts by as much as e is the worse of the two:
