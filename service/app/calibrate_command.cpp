@@ -44,9 +44,10 @@ void check_flags(const CalibrateFlags& flags) {
     throw CLI::ValidationError("expected either a recording or --noise-density or --arw");
   if (!flags.density_dps.empty() && !flags.arw_deg.empty())
     throw CLI::ValidationError("--noise-density and --arw say the same; expected one of them");
-  for (const auto* values : {&flags.density_dps, &flags.arw_deg}) {
+  for (const auto& [flag, values] :
+       {std::pair{"--noise-density", &flags.density_dps}, {"--arw", &flags.arw_deg}}) {
     if (values->size() == 2)
-      throw CLI::ValidationError("2 values given; expected one for all axes, or three");
+      throw CLI::ValidationError(flag, "2 values given; expected one for all axes, or three for x, y, z");
   }
   if (flags.from_data_sheet() && !flags.record.sample_rate_hz)
     throw CLI::ValidationError("--rate is missing; expected the sensor's sample rate in Hz");

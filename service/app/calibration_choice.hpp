@@ -19,4 +19,8 @@ struct ChosenCalibration {
 [[nodiscard]] ChosenCalibration choose_calibration(const std::string& flag, const std::string& file,
                                                    const std::string& sensor);
 
+/// "holds for 120 Hz; ...": that a sample rate is another one than a calibration's, and what that costs. Empty where it costs nothing.
+[[nodiscard]] std::string other_rate_note(const settings::NoiseCalibration& calibration,
+                                          double sample_rate_hz);
+
 }  // namespace gyrod::app

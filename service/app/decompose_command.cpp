@@ -228,7 +228,7 @@ void add_options(CLI::App& command, DecomposeFlags& flags) {
       ->check(one_of({"radps", "mradps", "dps", "mdps", "dph"}));
   command.add_option("--sifts", flags.emd.sifts, "Sifting steps a mode, 1 to 100 [10]")
       ->type_name("N")
-      ->check(in_range(1, 100));
+      ->check(whole_in_range(1, 100));
   command
       .add_option("--rate", flags.rate_hz,
                   "Sample rate in Hz, whatever the stamps say; needed where the file has no time column")

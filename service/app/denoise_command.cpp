@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/batch_denoiser.hpp"
+#include "app/calibration_choice.hpp"
 #include "app/command.hpp"
 #include "app/denoise_plan.hpp"
 #include "app/denoise_summary.hpp"
@@ -65,35 +66,34 @@ void tell(const DenoiseSummary::Source& source, const DenoiseSummary& summary, c
                static_cast<unsigned long long>(counts.published - counts.passed_through),
                static_cast<unsigned long long>(counts.windows), source.method.c_str(),
                summary.noise_words().c_str());
-  const auto note = [](std::uint64_t count, const std::string& what) {
-    if (count > 0) std::fprintf(stderr, "  %llu %s\n", static_cast<unsigned long long>(count), what.c_str());
-  };
-  note(counts.passed_through, "samples kept as they were: too few in a row to denoise");
-  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
-    note(counts.rejected[i], "samples refused and kept as they were: " +
-                                 std::string(name_of(static_cast<stream::RejectReason>(i))));
-  }
-  note(counts.missing, "samples missing from the input");
-  note(source.broken_rows, "broken rows left out");
+  for (const std::string& note : DenoiseSummary::notes(source, counts))
+    std::fprintf(stderr, "  %s\n", note.c_str());
 }
 
-/// @return what became of the samples, or nothing if it was interrupted
-std::optional<stream::Counts> denoise_all(files::RecordingReader& reader, RowHandler& rows,
-                                          DenoiseSummary& summary, const DenoisePlan& plan,
-                                          Interrupt& interrupt) {
+/// What became of the recording.
+struct Outcome {
+  stream::Counts counts;
+  std::string calibration_note;
+};
+
+/// @return nothing if it was interrupted
+std::optional<Outcome> denoise_all(files::RecordingReader& reader, RowHandler& rows, DenoiseSummary& summary,
+                                   const DenoisePlan& plan, Interrupt& interrupt) {
   if (plan.whole_record) {
     BatchDenoiser denoiser(plan.settings, plan.options, rows, summary,
                            [&interrupt] { return !interrupt.requested(); });
     if (!denoise_rows(reader, denoiser, interrupt)) return std::nullopt;
-    return denoiser.counts();
+    return Outcome{denoiser.counts(), ""};
   }
   OfflineDenoiser denoiser(plan.settings, rows, summary, plan.offline);
   if (!denoise_rows(reader, denoiser, interrupt)) return std::nullopt;
-  return denoiser.counts();
+  const auto* calibration = denoiser.calibration();
+  const bool used = calibration != nullptr && summary.sample_rate_hz() > 0.0;
+  return Outcome{denoiser.counts(), used ? other_rate_note(*calibration, summary.sample_rate_hz()) : ""};
 }
 
 DenoiseSummary::Source source_of(const DenoiseFlags& flags, const DenoisePlan& plan,
-                                 std::uint64_t broken_rows) {
+                                 const files::RecordingReader& reader, const Outcome& outcome) {
   const bool ar = !plan.whole_record || plan.options.models == core::ModelChoice::kAr;
   return {.input = flags.input,
           .output = flags.output,
@@ -103,7 +103,9 @@ DenoiseSummary::Source source_of(const DenoiseFlags& flags, const DenoisePlan& p
           .whole_record = plan.whole_record,
           .screening = std::string(settings::name_of(plan.settings.denoise.screening)),
           .models = ar ? "ar" : "identified",
-          .broken_rows = broken_rows};
+          .broken_rows = reader.broken_rows(),
+          .rate_note = flags.recording.rate_note(reader),
+          .calibration_note = outcome.calibration_note};
 }
 
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
@@ -120,20 +122,20 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
 
   RowsToFile rows(writer);
   DenoiseSummary summary;
-  const auto counts = denoise_all(reader, rows, summary, plan, interrupt);
-  if (!counts) {
+  const auto outcome = denoise_all(reader, rows, summary, plan, interrupt);
+  if (!outcome) {
     std::fprintf(stderr, "gyrod: interrupted, no file was written\n");
     return kInterrupted;
   }
 
   writer.close();
-  const DenoiseSummary::Source source = source_of(flags, plan, reader.broken_rows());
+  const DenoiseSummary::Source source = source_of(flags, plan, reader, *outcome);
   if (summary_file) {
-    summary_file->write(summary.json(source, *counts));
+    summary_file->write(summary.json(source, outcome->counts));
     summary_file->close();
   }
-  tell(source, summary, *counts);
-  return kDone;
+  tell(source, summary, outcome->counts);
+  return outcome->counts.published > 0 ? kDone : kIncomplete;
 }
 
 constexpr const char* kFooter =
@@ -144,6 +146,7 @@ constexpr const char* kFooter =
     "  sample or sequence                      number of the sample; without it rows are counted\n"
     "  anything else                           passes through\n"
     "Samples that are refused (nan, out of range, duplicate, ...) stay as they are and are counted.\n"
+    "Where all are, the exit code is 6.\n"
     "Without --batch the result is the daemon's for the same samples, bit for bit. OUT appears when it is "
     "complete.\n\n"
     "Schemes of method paper, which --scheme, --screening and --batch imply:\n"

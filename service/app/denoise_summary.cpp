@@ -65,8 +65,29 @@ void DenoiseSummary::add(const stream::NoiseReport& report) {
 
 std::string DenoiseSummary::noise_words() const {
   if (noise_source_ == stream::NoiseSource::kNone) return "noise by the record itself";
-  return "noise source " + std::string(stream::name_of(noise_source_)) + " from sample " +
-         std::to_string(noise_source_since_) + " on";
+  const std::string source = "noise source " + std::string(stream::name_of(noise_source_));
+  if (noise_source_ == stream::NoiseSource::kImf1) return source + " (guessed from each window)";
+  return source + " from sample " + std::to_string(noise_source_since_) + " on";
+}
+
+std::vector<std::string> DenoiseSummary::notes(const Source& source, const stream::Counts& counts) {
+  std::vector<std::string> notes;
+  const auto note = [&notes](std::uint64_t count, const std::string& what) {
+    if (count > 0) notes.push_back(std::to_string(count) + " " + what);
+  };
+  note(counts.passed_through, "samples kept as they were: too few in a row to denoise");
+  for (std::size_t i = 0; i < stream::kRejectReasons; ++i) {
+    note(counts.rejected[i], "samples refused and kept as they were: " +
+                                 std::string(name_of(static_cast<stream::RejectReason>(i))));
+  }
+  note(counts.missing, "samples missing from the input");
+  note(source.broken_rows, "broken rows left out");
+  if (!source.rate_note.empty()) notes.push_back(source.rate_note);
+  if (!source.calibration_note.empty())
+    notes.push_back("the calibration of its noise " + source.calibration_note);
+  note(counts.misfits, counts.misfits == 1 ? "time the noise of an axis ceased to be as believed"
+                                           : "times the noise of an axis ceased to be as believed");
+  return notes;
 }
 
 nlohmann::ordered_json DenoiseSummary::axes_json(bool whole_record) const {

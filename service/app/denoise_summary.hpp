@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -43,10 +44,17 @@ class DenoiseSummary {
     std::string screening;
     std::string models;
     std::uint64_t broken_rows = 0;
+    std::string rate_note;         ///< RecordingFlags::rate_note()
+    std::string calibration_note;  ///< other_rate_note()
   };
 
   /// Where the noise of the last window comes from, and since when, in words.
   [[nodiscard]] std::string noise_words() const;
+
+  /// What a user should know of it besides: what was lost, refused, assumed or did not fit; a line each.
+  [[nodiscard]] static std::vector<std::string> notes(const Source& source, const stream::Counts& counts);
+  /// Hz, as of the last window; 0 before the first.
+  [[nodiscard]] double sample_rate_hz() const noexcept { return sample_rate_hz_; }
 
   /// JSON, with the unit in every key that has one. Of a whole record it holds each axis's IMFs and models (of the longest stretch).
   [[nodiscard]] std::string json(const Source& source, const stream::Counts& counts) const;

@@ -135,7 +135,7 @@ void add_noise(CLI::App& command, EvaluateFlags& flags) {
       ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--noise-start", flags.input.noise_start, "First sample of the noise [0]")
       ->type_name("N")
-      ->check(in_range(0, 1e12));
+      ->check(whole_in_range(0, 1000000000000));
   command
       .add_option(
           "--calibration", flags.calibration,
@@ -165,7 +165,7 @@ void add_methods(CLI::App& command, EvaluateFlags& flags) {
       ->type_name("LIST")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(in_range(0, 1e6));
+      ->check(whole_in_range(0, 1000000));
   command.add_option("--config", flags.config, "Configuration file: its groups denoise, limits and noise")
       ->type_name("FILE");
   command.add_flag("--no-turns", flags.no_turns, "Leave out the turns after 60 s straight, half of the work");
@@ -173,7 +173,7 @@ void add_methods(CLI::App& command, EvaluateFlags& flags) {
       .add_option("--turn-repeats", flags.turn_repeats,
                   "Runs of each turn, with other stretches of the noise [3]")
       ->type_name("N")
-      ->check(in_range(1, 1000));
+      ->check(whole_in_range(1, 1000));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "app/sensor_axes.hpp"
 #include "core/noise/noise_units.hpp"
 #include "core/noise/still_noise.hpp"
-#include "report/json.hpp"
 #include "stream/standstill_noise.hpp"
 
 namespace gyrod::app {
@@ -78,13 +77,8 @@ std::vector<std::string> calibration_cautions(const NoiseKnowledge& known,
   std::vector<std::string> cautions;
   if (!known.calibration) return cautions;
   const settings::NoiseCalibration& calibration = *known.calibration;
-  const auto some = std::ranges::find_if(calibration.models, core::is_usable);
-  if (core::at_rate(*some, calibration.sample_rate_hz, rate_hz) != *some) {
-    cautions.push_back(known.calibration_file + ": holds for " +
-                       report::number_text(calibration.sample_rate_hz) + " Hz; at " +
-                       report::number_text(rate_hz) +
-                       " Hz only its mean density is kept, as white noise, as in the daemon");
-  }
+  const std::string note = other_rate_note(calibration, rate_hz);
+  if (!note.empty()) cautions.push_back(known.calibration_file + ": " + note + ", as in the daemon");
   for (const std::string& axis : axes) {
     if (core::is_usable(calibration.models[axis_index(axis)])) continue;
     cautions.push_back(known.calibration_file + ": has no axis " + axis.substr(axis.size() - 1) +

@@ -1,5 +1,6 @@
 #include "app/flags.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -25,7 +26,7 @@ void BusFlags::add_to(CLI::App& command) {
       ->type_name("FILE");
   command.add_option("--domain", domain, "DDS domain, 0 to 230 [as configured, else 0]")
       ->type_name("N")
-      ->check(in_range(0, 230));
+      ->check(whole_in_range(0, 230));
   command
       .add_option("--network", network,
                   "loopback: this machine only; default: as CYCLONEDDS_URI says or Cyclone DDS finds it;\n"
@@ -56,15 +57,24 @@ std::string BusFlags::text() const {
 }
 
 void RecordingFlags::add_to(CLI::App& command) {
-  command
-      .add_option("--rate", options.nominal_rate_hz,
-                  "Sample rate in Hz where the file has no time column [100]")
-      ->type_name("HZ")
-      ->check(in_range(1e-3, 1e6));
+  rate_ = command
+              .add_option("--rate", options.nominal_rate_hz,
+                          "Sample rate in Hz where the file has no time column [100]")
+              ->type_name("HZ")
+              ->check(in_range(1e-3, 1e6));
   command.add_flag("--allow-missing-axes", options.allow_missing_axes,
                    "Take a file without one or two of the axes; they count as 0");
   command.add_flag("--skip-broken-rows", options.skip_broken_rows,
                    "Leave out and count rows that cannot be read, instead of ending with an error");
+}
+
+std::string RecordingFlags::rate_note(const files::RecordingReader& reader) const {
+  const bool given = rate_ != nullptr && !rate_->empty();
+  if (given && !reader.stamps_made_up()) return "--rate is not used: the recording has a time column";
+  if (given || !reader.stamps_made_up()) return "";
+  std::ostringstream note;
+  note << "no time column: taken at " << options.nominal_rate_hz << " Hz; --rate says otherwise";
+  return note.str();
 }
 
 void SpeedFlag::add_to(CLI::App& command) {
@@ -92,6 +102,19 @@ CLI::Validator in_range(double least, double most) {
     std::ostringstream complaint;
     complaint << "'" << text << "' given; expected a number from " << least << " to " << most;
     return complaint.str();
+  };
+  return {check, ""};
+}
+
+CLI::Validator whole_in_range(std::uint64_t least, std::uint64_t most) {
+  const auto check = [least, most](const std::string& text) {
+    const bool digits =
+        !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+    std::uint64_t value = 0;
+    if (digits && CLI::detail::lexical_cast(text, value) && value >= least && value <= most)
+      return std::string{};
+    return "'" + text + "' given; expected a whole number from " + std::to_string(least) + " to " +
+           std::to_string(most);
   };
   return {check, ""};
 }

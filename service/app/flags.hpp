@@ -34,6 +34,11 @@ struct RecordingFlags {
   files::ReaderOptions options;
 
   void add_to(CLI::App& command);
+  /// What the user may not expect of --rate: that stamps come before it, and what is assumed where there is neither. Empty where nothing is.
+  [[nodiscard]] std::string rate_note(const files::RecordingReader& reader) const;
+
+ private:
+  const CLI::Option* rate_ = nullptr;
 };
 
 /// How fast samples are sent: by their stamps.
@@ -47,6 +52,7 @@ struct SpeedFlag {
 /// Checks of option values. Unlike CLI11's own, they do not add their limits to the option's line in the
 /// help, where the text says what is meant.
 [[nodiscard]] CLI::Validator in_range(double least, double most);
+[[nodiscard]] CLI::Validator whole_in_range(std::uint64_t least, std::uint64_t most);
 [[nodiscard]] CLI::Validator sensor_id();
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
 

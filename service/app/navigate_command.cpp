@@ -176,7 +176,7 @@ void add_input(CLI::App& command, NavigateFlags& flags) {
                   "Samples by which denoised rates come late in the rows without lag compensation;\n"
                   "0: no such rows [denoise.lag_samples]")
       ->type_name("N")
-      ->check(in_range(0, 1e6));
+      ->check(whole_in_range(0, 1000000));
 }
 
 void add_truth(CLI::App& command, NavigateFlags& flags) {
@@ -207,7 +207,7 @@ void add_start(CLI::App& command, NavigateFlags& flags) {
       .add_option("--starts", options.start_count,
                   "Number of starts, spread evenly over the times where one is possible [5]")
       ->type_name("N")
-      ->check(in_range(1, 1000))
+      ->check(whole_in_range(1, 1000))
       ->excludes(start);
   command.add_option("--duration", options.duration_s, "Length of each navigation, s [50]")
       ->type_name("S")

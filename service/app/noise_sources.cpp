@@ -42,7 +42,7 @@ stream::StandstillOptions NoiseSources::options_of(std::string_view sensor, doub
   stream::StandstillOptions options;
   options.sample_rate_hz = sample_rate_hz;
   options.use_learned = source_ != settings::NoiseSource::kCalibrated;
-  if (const auto* calibration = settings::calibration_for(calibrations_, sensor))
+  if (const auto* calibration = calibration_of(sensor))
     options.calibrated = stream::CalibratedNoise{calibration->sample_rate_hz, calibration->models};
   const std::lock_guard lock(mutex_);
   // Also of this run: a sensor that was forgotten and is back.

@@ -34,6 +34,10 @@ class NoiseSources {
   /// Rises with every change of learned(). Any thread.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
+  /// A sensor's; nullptr where it has none, or where noise.source does not ask for it.
+  [[nodiscard]] const settings::NoiseCalibration* calibration_of(std::string_view sensor) const {
+    return settings::calibration_for(calibrations_, sensor);
+  }
   [[nodiscard]] std::size_t calibrations() const noexcept { return calibrations_.size(); }
   [[nodiscard]] std::size_t remembered() const noexcept { return remembered_; }
 

@@ -50,6 +50,10 @@ class OfflineDenoiser final : private stream::Sink {
   void finish();
 
   [[nodiscard]] stream::Counts counts() const { return engine_.snapshot().totals; }
+  /// Of the sensor's noise, for as long as the denoiser lives; nullptr where there is none.
+  [[nodiscard]] const settings::NoiseCalibration* calibration() const {
+    return noise_.calibration_of(choice_.sensor);
+  }
 
  private:
   struct WaitingRow {

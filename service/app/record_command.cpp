@@ -158,7 +158,7 @@ void add_options(CLI::App& command, RecordFlags& flags) {
       ->check(in_range(1e-3, 1e9));
   command.add_option("--samples", flags.samples, "End after so many samples, all sensors together")
       ->type_name("N")
-      ->check(in_range(1.0, 1e15));
+      ->check(whole_in_range(1, 1000000000000000));
   command.add_flag("--until-end", flags.until_end, "End when every sensor that sent has ended");
   add_unit(command, flags.unit);
   command

@@ -19,11 +19,15 @@ void log_health(std::string_view sensor, const stream::SensorHealth& before,
   const bool was_troubled = before.state > stream::Health::kWarmingUp;
   if (!troubled && !was_troubled) return;
   const auto worst = std::ranges::find(now.axis, now.state, &stream::AxisHealth::state);
-  spdlog::log(troubled ? spdlog::level::warn : spdlog::level::info,
-              "{} is {}, before {} (axis {}, {:.4g} against {:.4g})", sensor, stream::name_of(now.state),
-              stream::name_of(before.state),
-              stream::kAxisNames[static_cast<std::size_t>(worst - now.axis.begin())], worst->value,
-              worst->limit);
+  const char* axis = stream::kAxisNames[static_cast<std::size_t>(worst - now.axis.begin())];
+  try {
+    const std::string evidence = live::evidence_words(*worst);
+    spdlog::log(troubled ? spdlog::level::warn : spdlog::level::info, "{} is {}, before {}{}", sensor,
+                stream::name_of(now.state), stream::name_of(before.state),
+                evidence.empty() ? "" : " (axis " + std::string(axis) + ": " + evidence + ")");
+  } catch (const std::bad_alloc&) {
+    return;  // a line less
+  }
 }
 
 /// An event of what becomes of a sensor.

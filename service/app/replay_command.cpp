@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "app/command.hpp"
 #include "app/exit_code.hpp"
@@ -41,6 +42,8 @@ int replay(const ReplayFlags& flags, Interrupt& interrupt) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::fprintf(stderr, "%s: %llu samples of sensor '%s' sent in %.1f s\n", flags.input.c_str(),
                static_cast<unsigned long long>(sender.sent()), flags.send.sensor.c_str(), seconds);
+  const std::string note = flags.recording.rate_note(reader);
+  if (!note.empty()) std::fprintf(stderr, "  %s\n", note.c_str());
   if (reader.broken_rows() > 0) {
     std::fprintf(stderr, "  %llu broken rows left out\n",
                  static_cast<unsigned long long>(reader.broken_rows()));

@@ -31,7 +31,7 @@ const SendFlags& checked(const SendFlags& flags, const settings::BusSettings& se
 void SendFlags::add_to(CLI::App& command) {
   command.add_option("--batch", batch, "Samples a message; above 1 on the topic of batches [1]")
       ->type_name("N")
-      ->check(in_range(1, 65536));
+      ->check(whole_in_range(1, 65536));
   command.add_option("--wait", wait_s, "Seconds to wait for a reader before giving up [10]")
       ->type_name("S")
       ->check(in_range(0.0, 86400.0));
@@ -40,7 +40,7 @@ void SendFlags::add_to(CLI::App& command) {
           "--keep", keep,
           "Samples to keep for readers that come later, such as a gyrod that restarts (transient local) [0]")
       ->type_name("N")
-      ->check(in_range(0, 1000000));
+      ->check(whole_in_range(0, 1000000));
   speed.add_to(command);
 }
 

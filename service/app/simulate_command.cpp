@@ -176,7 +176,7 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
       ->check(one_of({"still", "drive"}));
   command.add_option("--seed", flags.seed, "Same seed and options: same samples on any machine [1]")
       ->type_name("N")
-      ->check(in_range(0.0, 1e15));
+      ->check(whole_in_range(0, 1000000000000000));
   command.add_option("--rate", flags.rate_hz, "Sample rate [100]")
       ->type_name("HZ")
       ->check(in_range(1.0, 1e5));
@@ -185,7 +185,7 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
       ->check(in_range(1e-3, 1e9));
   command.add_option("--samples", flags.samples, "Length in samples")
       ->type_name("N")
-      ->check(in_range(1.0, 1e15))
+      ->check(whole_in_range(1, 1000000000000000))
       ->excludes("--seconds");
   command.add_option("--sensor", flags.send.sensor, "Id of the sensor, 1 to 64 characters, no spaces [sim]")
       ->type_name("NAME")
@@ -193,7 +193,7 @@ void add_options(CLI::App& command, SimulateFlags& flags) {
   command
       .add_option("--sensors", flags.send.sensors, "So many sensors, NAME_1, NAME_2, ...; on DDS only [1]")
       ->type_name("N")
-      ->check(in_range(1, 65536));
+      ->check(whole_in_range(1, 65536));
   command
       .add_option("-o,--output", flags.output,
                   "To this file, with the truth, and not to DDS; gzip if it ends in .gz")

@@ -21,10 +21,8 @@ std::string sentence(std::string_view sensor, const HealthChange& change) {
   text += stream::name_of(change.to);
   text += ", before ";
   text += stream::name_of(change.from);
-  if (change.to == stream::Health::kOk) return text + ".";
-  const std::string unit = unit_of(change.to).empty() ? "" : " " + std::string(unit_of(change.to));
-  return text + " (" + short_number(change.value) + unit + " against " + short_number(change.limit) + unit +
-         ").";
+  const std::string evidence = evidence_words({change.to, change.value, change.limit});
+  return evidence.empty() ? text + "." : text + " (" + evidence + ").";
 }
 
 bool changed(const stream::SensorHealth& before, const stream::SensorHealth& now, std::size_t axis) {
@@ -55,6 +53,34 @@ std::string_view unit_of(stream::Health state) noexcept {
     case stream::Health::kDegraded:
     case stream::Health::kLossy:
     case stream::Health::kNoisy:
+      break;
+  }
+  return "";
+}
+
+std::string evidence_words(const stream::AxisHealth& axis) {
+  const std::string value = short_number(axis.value);
+  const std::string limit = ", limit " + short_number(axis.limit);
+  switch (axis.state) {
+    case stream::Health::kSilent:
+      return axis.value > axis.limit ? "no sample for " + value + " s" + limit + " s"
+                                     : "its writer is gone, or has missed a deadline";
+    case stream::Health::kStuck:
+      return "one value for " + value + " s" + limit + " s";
+    case stream::Health::kSaturated:
+      return "at the end of its range " + value + " s ago" + limit + " s";
+    case stream::Health::kNoisy:
+      return value + " times its usual noise" + limit;
+    case stream::Health::kDrifting:
+      return "bias off by " + value + " rad/s" + limit + " rad/s";
+    case stream::Health::kLossy:
+      return short_number(100.0 * axis.value) + " % of samples missing or refused, limit " +
+             short_number(100.0 * axis.limit) + " %";
+    case stream::Health::kDegraded:
+      return "overload step " + value + " of 2";
+    case stream::Health::kWarmingUp:
+      return value + " of " + short_number(axis.limit) + " samples of its window";
+    case stream::Health::kOk:
       break;
   }
   return "";

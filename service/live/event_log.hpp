@@ -34,6 +34,9 @@ struct Event {
 /// The unit of `value` and `limit` in a state; empty for a plain ratio, share or step.
 [[nodiscard]] std::string_view unit_of(stream::Health state) noexcept;
 
+/// What speaks for an axis's state, and the limit it is held against: "1.7 times its usual noise, limit 1.5". Empty for `ok`.
+[[nodiscard]] std::string evidence_words(const stream::AxisHealth& axis);
+
 /// Keeps the newest events, a bounded number; any thread may add and read. Who adds never waits for one that reads, which may be of lower
 /// priority, but for the time of a swap. Where nobody settles for long, what is added beyond kCapacity is lost.
 class EventLog {

@@ -59,14 +59,24 @@ const json& value_at(const json& document, const Path& path) {
   return *value;
 }
 
+/// The keys that a group may have: "one of a, b, c".
+std::string keys_of(const json& group_schema) {
+  std::string names;
+  for (const auto& [name, value] : group_schema.at("properties").items()) {
+    if (!name.starts_with('$')) names += (names.empty() ? "one of " : ", ") + name;
+  }
+  return names;
+}
+
 SettingsIssue unknown_key(const Path& group, const std::string& name, const json& value) {
   Path path = group;
   path.push_back(printable(name));
   const std::string key = dotted(path);
   const std::string nearest = nearest_key(*schema_at(group), name);
   std::string message = "unknown key " + key;
-  if (!nearest.empty()) message += "; did you mean " + nearest + "?";
-  return {.key = key, .value = shortened(value), .expected = "", .message = std::move(message)};
+  const std::string expected = keys_of(*schema_at(group));
+  message += nearest.empty() ? "; expected " + expected : "; did you mean " + nearest + "?";
+  return {.key = key, .value = shortened(value), .expected = expected, .message = std::move(message)};
 }
 
 SettingsIssue wrong_value(const Path& path, const json& value) {

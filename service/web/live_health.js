@@ -25,7 +25,8 @@ const gyrodHealth = (() => {
 
   /// What speaks for the state of an axis, with the limit it is held against.
   const kEvidence = {
-    silent: (v, l) => `${units.time(v)} since the last sample, limit ${units.time(l)}`,
+    silent: (v, l) =>
+      v > l ? `${units.time(v)} since the last sample, limit ${units.time(l)}` : "its writer is gone, or has missed a deadline",
     stuck: (v, l) => `one value for ${units.time(v)}, limit ${units.time(l)}`,
     saturated: (v, l) => `at the limit of its range ${units.time(v)} ago, held for ${units.time(l)}`,
     noisy: (v, l) => `${units.plain(v)} times its usual noise, limit ${units.plain(l)}`,

@@ -14,6 +14,7 @@ namespace {
 using app::ExitCode;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class CommandLine : public Rig {
  protected:
@@ -130,8 +131,26 @@ TEST_F(CommandLine, ShortAndDegenerateRecordingsComeOutWhole) {
   ASSERT_EQ(denoise(rows(2000, "0.5")).exit_code, ExitCode::kDone);
   EXPECT_EQ(columns_of(path("out.csv"), {"gyro_z_radps"}), std::vector<std::string>(2000, "0.5"));
   const Result refused = denoise(rows(100, "nan"));
-  EXPECT_EQ(refused.exit_code, ExitCode::kDone);
+  EXPECT_EQ(refused.exit_code, ExitCode::kIncomplete) << "nothing was denoised, though every row is there";
   EXPECT_THAT(refused.err, HasSubstr("100 samples refused and kept as they were: not_finite"));
+  EXPECT_EQ(columns_of(path("out.csv"), {"gyro_z_radps"}).size(), 100U);
+}
+
+TEST_F(CommandLine, WhatTheSampleRateIsTakenForIsSaid) {
+  const std::string stamped = std::string(kHeader) + "0,0,0,0\n0.01,0,0,0\n";
+  EXPECT_THAT(denoise(stamped).err, Not(HasSubstr("--rate")));
+  EXPECT_THAT(denoise(stamped, {"--rate", "50"}).err, HasSubstr("--rate is not used"));
+  const std::string bare = "gyro_x_radps,gyro_y_radps,gyro_z_radps\n0,0,0\n0,0,0\n";
+  EXPECT_THAT(denoise(bare).err, HasSubstr("no time column: taken at 100 Hz"));
+  EXPECT_THAT(denoise(bare, {"--rate", "50"}).err, Not(HasSubstr("taken at")));
+}
+
+TEST_F(CommandLine, ACountThatIsNoneComesWithWhatIsExpected) {
+  const Result half = run({"simulate", "--samples", "1.5"});
+  EXPECT_EQ(half.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(half.err, HasSubstr("--samples: '1.5' given; expected a whole number from 1 to "));
+  EXPECT_THAT(run({"replay", "x.csv", "--sensor", "imu", "--domain", "-1"}).err,
+              HasSubstr("--domain: '-1' given; expected a whole number from 0 to 230"));
 }
 
 TEST_F(CommandLine, UnitAndOtherColumnsAreKept) {

@@ -118,8 +118,14 @@ TEST_F(Noise, OfACalibrationIsUsedFromTheFirstModelOn) {
             0);
   const Result offline = denoise({"--noise", path("front.json")});
   ASSERT_EQ(offline.exit_code, 0) << offline.err;
-  EXPECT_THAT(offline.err, HasSubstr("noise source calibrated from sample 63 on"));
+  EXPECT_THAT(offline.err, AllOf(HasSubstr("noise source calibrated from sample 63 on"),
+                                 ::testing::Not(HasSubstr("the calibration of its noise"))));
   EXPECT_THAT(read_file("s.json"), HasSubstr("\"source\": \"calibrated\""));
+  ASSERT_EQ(run({"calibrate", "--noise-density", "0.05", "--rate", "200", "-o", path("fast.json")}).exit_code,
+            0);
+  EXPECT_THAT(
+      denoise({"--noise", path("fast.json")}).err,
+      HasSubstr("the calibration of its noise holds for 200.0 Hz; at 100.0 Hz only its mean density"));
   const Result other = denoise({"--noise", path("front.json"), "--sensor", "rear"});
   EXPECT_EQ(other.exit_code, ExitCode::kWrongUsage);
   EXPECT_THAT(other.err, AllOf(HasSubstr("front.json"), HasSubstr("'rear'")));

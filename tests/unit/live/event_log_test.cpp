@@ -56,6 +56,20 @@ TEST(EventLog, AxesThatChangeByThemselvesAreEventsByThemselves) {
   EXPECT_EQ(events[1].health->from, Health::kStuck);
 }
 
+// As docs/health.md has value and limit of each state.
+TEST(EventLog, TheEvidenceIsInWords) {
+  EXPECT_EQ(evidence_words({Health::kSilent, 1.25, 1.0}), "no sample for 1.25 s, limit 1 s");
+  EXPECT_EQ(evidence_words({Health::kSilent, 0.0, 1.0}), "its writer is gone, or has missed a deadline");
+  EXPECT_EQ(evidence_words({Health::kStuck, 1.5, 1.0}), "one value for 1.5 s, limit 1 s");
+  EXPECT_EQ(evidence_words({Health::kSaturated, 0.5, 10.0}), "at the end of its range 0.5 s ago, limit 10 s");
+  EXPECT_EQ(evidence_words({Health::kNoisy, 1.7, 1.5}), "1.7 times its usual noise, limit 1.5");
+  EXPECT_EQ(evidence_words({Health::kDrifting, 2e-3, 1e-3}), "bias off by 0.002 rad/s, limit 0.001 rad/s");
+  EXPECT_EQ(evidence_words({Health::kLossy, 0.05, 0.01}), "5 % of samples missing or refused, limit 1 %");
+  EXPECT_EQ(evidence_words({Health::kDegraded, 2.0, 1.0}), "overload step 2 of 2");
+  EXPECT_EQ(evidence_words({Health::kWarmingUp, 100.0, 1024.0}), "100 of 1024 samples of its window");
+  EXPECT_EQ(evidence_words({Health::kOk, 0.0, 0.0}), "");
+}
+
 TEST(EventLog, WithoutAChangeThereIsNoEvent) {
   EventLog log;
   log.add_health(1.0, "imu", {}, {});

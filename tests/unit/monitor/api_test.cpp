@@ -268,7 +268,7 @@ TEST_F(ApiTest, EventsComeByNumber) {
   EXPECT_EQ(noisy.at("value"), 1.7);
   EXPECT_EQ(noisy.at("limit"), 1.5);
   EXPECT_TRUE(noisy.at("unit").is_null()) << "a ratio";
-  EXPECT_EQ(noisy.at("text"), "imu_front axis y is noisy, before ok (1.7 against 1.5).");
+  EXPECT_EQ(noisy.at("text"), "imu_front axis y is noisy, before ok (1.7 times its usual noise, limit 1.5).");
   EXPECT_EQ(all.at("events")[2].at("kind"), "daemon");
   EXPECT_TRUE(all.at("events")[2].at("sensor").is_null());
   EXPECT_EQ(get("events?after=1&limit=1").at("events")[0].at("id"), 2);

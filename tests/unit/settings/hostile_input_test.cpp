@@ -59,7 +59,7 @@ TEST(HostileInput, IntegersBeyondTheMachinesAreOutOfRangeAndNeverWrapAround) {
 TEST(HostileInput, ALongValueIsShortened) {
   const std::string message = only_message("{\"log\": {\"level\": \"" + std::string(kMegabyte, 'x') + "\"}}");
   EXPECT_LT(message.size(), 300U);
-  EXPECT_THAT(only_message("{\"" + std::string(kMegabyte, 'k') + "\": 1}"), SizeIs(::testing::Lt(300U)));
+  EXPECT_THAT(only_message("{\"" + std::string(kMegabyte, 'k') + "\": 1}"), SizeIs(::testing::Lt(400U)));
   EXPECT_THAT(only_message("{\"a\": \"" + std::string(kMegabyte, 'x')), SizeIs(::testing::Lt(400U)));
 }
 

@@ -83,8 +83,11 @@ TEST(SettingsIssues, AnUnknownKeyThatLacksItsUnitComesWithTheWholeOne) {
               ElementsAre("unknown key denoise.window; did you mean window_samples?"));
 }
 
-TEST(SettingsIssues, AnUnknownKeyFarFromAllComesWithoutAGuess) {
-  EXPECT_THAT(messages(R"({"kalman": {}})"), ElementsAre("unknown key kalman"));
+TEST(SettingsIssues, AnUnknownKeyFarFromAllComesWithThoseThatThereAre) {
+  EXPECT_THAT(messages(R"({"noise": {"axis": 3}})"),
+              ElementsAre("unknown key noise.axis; expected one of calibrations, source, state_file"));
+  EXPECT_THAT(messages(R"({"kalman": {}})"),
+              ElementsAre(StartsWith("unknown key kalman; expected one of bus, denoise, ")));
 }
 
 TEST(SettingsIssues, ARepeatedKeyIsAnError) {

@@ -100,7 +100,9 @@ TEST(NoiseCalibration, SaysWhatDoesNotFit) {
   EXPECT_EQ(complaint(document), "cal.json: sample_rate_hz is null; expected a number above 0");
   document = example_json();
   document["sensor"] = "front";
-  EXPECT_EQ(complaint(document), "cal.json: unknown key sensor");
+  EXPECT_EQ(complaint(document),
+            "cal.json: unknown key sensor; expected one of gyrod_noise, sensor_id, sample_rate_hz, axes, "
+            "figures, origin");
   document = example_json();
   document["sensor_id"] = "two words";
   EXPECT_THAT(complaint(document), HasSubstr("sensor_id is \"two words\"; expected 1 to 64 printable"));
