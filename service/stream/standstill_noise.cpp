@@ -101,7 +101,13 @@ const core::Triple* StandstillNoise::force_at(const Sample& sample, bool measure
   } else if (held_ <= kMostHeldForces) {
     ++held_;
   }
-  return held_ <= kMostHeldForces ? &force_mps2_ : nullptr;
+  if (held_ > kMostHeldForces) {
+    doubted_ = kForcesAgain;
+    return nullptr;
+  }
+  if (doubted_ == 0) return &force_mps2_;
+  --doubted_;
+  return nullptr;
 }
 
 void StandstillNoise::end_block() noexcept {

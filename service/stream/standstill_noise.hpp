@@ -57,13 +57,17 @@ struct StandstillOptions {
 /// it is that of the calibration or of what is remembered, until the stamps have said otherwise (by more than 2 %, and always the same)
 /// for kAgreeing samples in a row; then it is theirs: a calibration goes through core::at_rate(), and learning begins anew.
 /// Bridged positions are gaps to the learner where they are more than 2 % of a second's samples: what is interpolated has less noise. Of an
-/// accelerometer that fails for a few samples the last value holds; where it fails for longer, rest is judged without it. Beside
+/// accelerometer that fails for a few samples the last value holds; where it fails for longer, rest is judged without it until it has been back
+/// for kForcesAgain samples. Beside
 /// the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew where the learner does.
 class StandstillNoise final : public NoiseLearner {
  public:
   static constexpr std::size_t kAgreeing = 256;
   /// Samples in a row for which the last specific force holds.
   static constexpr std::size_t kMostHeldForces = 16;
+  /// Samples for which an accelerometer that failed must have held before it counts again: one that comes and goes, or is far slower than
+  /// the gyro, would begin rest anew each time.
+  static constexpr std::size_t kForcesAgain = 256;
 
   explicit StandstillNoise(StandstillOptions options);
 
@@ -89,6 +93,7 @@ class StandstillNoise final : public NoiseLearner {
   bool rate_changed_ = false;
   core::Triple force_mps2_{};               ///< the last good one
   std::size_t held_ = kMostHeldForces + 1;  ///< samples since then
+  std::size_t doubted_ = 0;                 ///< samples until the accelerometer counts again
   core::StandstillLearner learner_;
   std::uint64_t revision_ = 0;  ///< of the learner, that was told
   RestAllan allan_;

@@ -143,5 +143,16 @@ TEST(StandstillNoise, TheLastSpecificForceHoldsForSixteenSamples) {
   }
 }
 
+// One force in twenty samples, as of an accelerometer at 5 Hz: it fails again and again, and must not begin rest anew each time.
+TEST(StandstillNoise, AnAccelerometerThatComesAndGoesDoesNotKeepRestFromBeingFound) {
+  StandstillNoise learner({.sample_rate_hz = kStillHz});
+  auto samples = still(1600, 0.01, true);
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    if (n % 20 != 0) samples[n].specific_force_mps2.reset();
+  }
+  for (const Sample& sample : samples) learner.step(sample, true, kStillHz);
+  EXPECT_TRUE(learner.at_rest());
+}
+
 }  // namespace
 }  // namespace gyrod::stream
