@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/noise/noise_units.hpp"
+#include "core/noise/same_noise.hpp"
 #include "core/noise/still_noise.hpp"
 
 namespace gyrod::stream {
@@ -12,10 +13,6 @@ namespace {
 
 /// The learner has to be made for some rate before there is one; it takes no sample until then.
 constexpr double kAnyRateHz = 100.0;
-/// That of core::at_rate() and of the learner's state.
-constexpr double kSameRate = 0.02;
-
-bool same_rate(double a_hz, double b_hz) noexcept { return std::abs(a_hz - b_hz) <= kSameRate * b_hz; }
 
 const core::NoiseModel* strongest(const std::array<core::NoiseModel, kAxes>& models) noexcept {
   const core::NoiseModel* found = nullptr;
@@ -68,7 +65,7 @@ ChannelNoise noise_beforehand(const StandstillOptions& options) noexcept {
   const double rate_hz = first_rate(options);
   if (options.calibrated) return calibrated_noise(*options.calibrated, rate_hz);
   if (!options.remembered || !options.use_learned) return {};
-  if (!same_rate(options.remembered->sample_rate_hz, rate_hz)) return {};
+  if (!core::is_same_rate(options.remembered->sample_rate_hz, rate_hz)) return {};
   return channel_noise(NoiseSource::kStandstill, options.remembered->models);
 }
 
@@ -135,11 +132,11 @@ void StandstillNoise::end_block() noexcept {
 }
 
 void StandstillNoise::follow_rate(double sample_rate_hz) noexcept {
-  if (!(sample_rate_hz > 0.0) || same_rate(sample_rate_hz, rate_hz_)) {
+  if (!(sample_rate_hz > 0.0) || core::is_same_rate(sample_rate_hz, rate_hz_)) {
     agreeing_ = 0;
     return;
   }
-  if (agreeing_ == 0 || !same_rate(sample_rate_hz, other_rate_hz_)) {
+  if (agreeing_ == 0 || !core::is_same_rate(sample_rate_hz, other_rate_hz_)) {
     other_rate_hz_ = sample_rate_hz;
     agreeing_ = 0;
   }

@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "core/noise/noise_fit.hpp"
+#include "core/noise/same_noise.hpp"
 #include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
 
-constexpr double kSameRate = 0.02;
 /// Frequencies that a spectrum with eight poles is averaged over.
 constexpr int kFrequencies = 1024;
 
@@ -58,7 +58,7 @@ double lag_one_correlation(const NoiseModel& model) noexcept {
 }
 
 NoiseModel at_rate(const NoiseModel& model, double from_hz, double to_hz) noexcept {
-  if (std::abs(to_hz - from_hz) <= kSameRate * from_hz) return model;
+  if (is_same_rate(to_hz, from_hz)) return model;
   const double rest = noise_variance(without_lines(model));
   return white_noise(rest * to_hz / from_hz + noise_variance(model) - rest);
 }

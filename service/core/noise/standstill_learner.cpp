@@ -5,21 +5,17 @@
 #include <numbers>
 
 #include "core/noise/noise_lines.hpp"
+#include "core/noise/same_noise.hpp"
 
 namespace gyrod::core {
 namespace {
 
-/// Largest ratio of variances of one noise: eight blocks of 100 samples vary by 6 %, a sensor's level by 5 % in hours.
-constexpr double kSameLevel = 1.5;
 constexpr double kOutvotedLevelSeconds = 1800.0;
-/// Largest distance of means of one bias, rad/s: 1 deg/s.
-constexpr double kSameBias = std::numbers::pi / 180.0;
 constexpr double kMemorySeconds = 600.0;
 constexpr double kLeastSegments = 5.0;
 constexpr double kFewestSeconds = 10.0;
 /// Of what is learned; so much more and the models are made anew.
 constexpr double kRefit = 0.1;
-constexpr double kSameSampleRate = 0.02;
 
 bool close(const Triple& a, const Triple& b) noexcept {
   for (std::size_t axis = 0; axis < a.size(); ++axis) {
@@ -180,7 +176,7 @@ void StandstillLearner::forget() noexcept {
 
 bool StandstillLearner::restore(const StandstillState& state) noexcept {
   const double rate = state_.sample_rate_hz;
-  if (!is_good(state) || std::abs(state.sample_rate_hz - rate) > kSameSampleRate * rate) return false;
+  if (!is_good(state) || !is_same_rate(state.sample_rate_hz, rate)) return false;
   state_ = state;
   state_.sample_rate_hz = rate;
   state_.segments = std::min(state.segments, most_segments_);

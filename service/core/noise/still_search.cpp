@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/noise/same_noise.hpp"
 
 namespace gyrod::core {
 namespace {
 
-/// Largest ratio of variances of one noise.
-constexpr double kSameNoise = 1.5;
-/// Largest distance of the means of one bias, rad/s: 1 deg/s, as StandstillLearner has it.
-constexpr double kSameRestBias = std::numbers::pi / 180.0;
 constexpr std::size_t kLookEvery = 1U << 16U;
 
 /// A stretch with the mean of its windows' variances.
@@ -57,7 +54,7 @@ bool is_stuck(const Measured& one, const Triple& least) {
 
 bool is_loud(const Measured& one, const Triple& least) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (one.variance[axis] > kSameNoise * least[axis]) return true;
+    if (one.variance[axis] > kSameLevel * least[axis]) return true;
   }
   return false;
 }
@@ -81,7 +78,7 @@ Triple usual_mean(std::vector<Measured> all) {
 
 bool turns(const Measured& one, const Triple& usual) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::abs(one.mean[axis] - usual[axis]) > kSameRestBias) return true;
+    if (std::abs(one.mean[axis] - usual[axis]) > kSameBias) return true;
   }
   return false;
 }
