@@ -38,10 +38,12 @@ bool JsonFields::has(std::string_view key) const { return find(key) != nullptr; 
 void JsonFields::allow(std::initializer_list<std::string_view> known) const {
   for (const auto& [key, value] : object_.items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    std::string expected;
-    for (const std::string_view name : known) expected += (expected.empty() ? "" : ", ") + std::string(name);
-    throw NoiseFileError(file_ + ": unknown key " + printable(prefix_ + key) + "; expected one of " +
-                         expected);
+    std::string message = file_ + ": unknown key " + printable(prefix_ + key) + "; expected one of ";
+    for (const std::string_view name : known) {
+      if (name != *known.begin()) message += ", ";
+      message += name;
+    }
+    throw NoiseFileError(message);
   }
 }
 
