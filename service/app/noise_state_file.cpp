@@ -51,7 +51,10 @@ NoiseStateFile::NoiseStateFile(std::string path, Warn warn)
 settings::NoiseStates NoiseStateFile::load() {
   if (path_.empty()) return {};
   const settings::TextFile read = settings::read_text_file(path_, kMostMebibytes);
-  if (read.missing) return {};
+  if (read.missing) {
+    require_folder();
+    return {};
+  }
   if (read.damaged) {
     put_aside(path_ + ": " + read.trouble);
     return {};
@@ -67,6 +70,16 @@ settings::NoiseStates NoiseStateFile::load() {
     put_aside(error.what());
     return {};
   }
+}
+
+/// So that a misspelt path is known at the start, and not when an hour's learning is to be kept.
+void NoiseStateFile::require_folder() {
+  const fs::path folder = fs::path(path_).parent_path();
+  std::error_code error;
+  if (folder.empty() || fs::is_directory(folder, error)) return;
+  in_trouble_ = true;
+  warn_("noise.state_file is " + path_ + ", and " + folder.string() +
+        " is no folder; learned noise is not kept across a restart");
 }
 
 void NoiseStateFile::put_aside(const std::string& reason) {

@@ -25,7 +25,8 @@ class NoiseStateFile {
 
   /// What the file holds. Nothing where there is no file, and, with a warning that names file, place and what was expected, where it is
   /// damaged (compressed text that is cut off, too) or of another version: then it is put aside under its name and ".damaged" (over one from before), so that saving
-  /// does not destroy it. A file that cannot be read is warned about and stays.
+  /// does not destroy it. A file that cannot be read is warned about and stays;
+  /// so is a folder that is not there.
   [[nodiscard]] settings::NoiseStates load();
 
   /// Replaces the file in one step: who reads it, after a power failure too, finds the old or the new one in full. Sensors that another
@@ -38,6 +39,7 @@ class NoiseStateFile {
   [[nodiscard]] std::uint64_t errors() const noexcept { return errors_.load(std::memory_order_relaxed); }
 
  private:
+  void require_folder();
   void put_aside(const std::string& reason);
   [[nodiscard]] settings::NoiseStates merged(const settings::NoiseStates& states) const;
 

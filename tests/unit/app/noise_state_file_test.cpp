@@ -60,6 +60,15 @@ TEST_F(NoiseStateFileTest, DoesNothingWithoutAPath) {
   EXPECT_THAT(warnings, IsEmpty());
 }
 
+TEST_F(NoiseStateFileTest, SaysAtOnceThatItsFolderIsNotThere) {
+  NoiseStateFile lost = file(folder.path("nowhere/noise.json"));
+  EXPECT_THAT(lost.load(), IsEmpty());
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("nowhere is no folder; learned noise is not kept")));
+  EXPECT_FALSE(lost.save(states(60.0)));
+  EXPECT_EQ(lost.errors(), 1U);
+  EXPECT_THAT(warnings, SizeIs(1)) << "said once";
+}
+
 TEST_F(NoiseStateFileTest, PutsADamagedFileAsideWithOneWarning) {
   ASSERT_TRUE(file(path).save(states(60.0)));
   const std::string good = folder.read("noise.json");
