@@ -187,7 +187,7 @@ std::string first_rows(const std::filesystem::path& file, std::size_t rows) {
 TEST_F(LiveEqualsOffline, OnARealGyroThatLearnsItsNoise) {
   const auto file = test::data_folder() / "adis16405_imu1_static_100hz.csv.gz";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real recording: " << file << " (set GYROD_DATA)";
-  write_file("real.csv", first_rows(file, kSlowBuild ? 3000 : 20000));
+  write_file("real.csv", first_rows(file, kSlowBuild ? 3000 : 8000));
   expect_same("real.csv", "dps");
 }
 

@@ -8,6 +8,7 @@
 #include "app/options.hpp"
 #include "core/denoise/record_analysis.hpp"
 #include "support/signals.hpp"
+#include "support/slow_build.hpp"
 
 namespace gyrod {
 namespace {
@@ -16,6 +17,8 @@ using core::Scheme;
 using namespace testing;
 
 constexpr std::int64_t kPeriodNs = 10'000'000;
+/// A few windows; under a sanitizer one and a half.
+constexpr std::size_t kLong = testing::kSlowBuild ? 1500 : 3000;
 
 /// A slow swing in noise, rad/s; y is missing where asked.
 files::Record record_of(std::size_t size, bool with_y = true) {
@@ -62,7 +65,7 @@ void push_all(Denoiser& denoiser, const files::Record& record) {
 }
 
 TEST(DenoiseRecord, WindowedIsWhatTheOfflineDenoiserGives) {
-  const files::Record record = record_of(3000);
+  const files::Record record = record_of(kLong);
   for (const Scheme scheme : core::kAllSchemes) {
     settings::Settings settings;
     settings.denoise.method = settings::Method::kPaper;
@@ -76,7 +79,7 @@ TEST(DenoiseRecord, WindowedIsWhatTheOfflineDenoiserGives) {
 }
 
 TEST(DenoiseRecord, EstimatesAreWhatTheOfflineDenoiserGives) {
-  const files::Record record = record_of(3000);
+  const files::Record record = record_of(kLong);
   for (const auto kind : {app::EstimateKind::kDenoised, app::EstimateKind::kRealtime}) {
     Rows rows;
     app::DenoiseSummary summary;
