@@ -136,8 +136,10 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
   const std::size_t hop = setting.options.hop_samples;
   core::JointFit fit(setting.window, setting.options);
   fit.set_sample_rate(setting.told_rate ? row.rate_hz : 0.0);
+  // Each answers at once, too, alike whatever its lag is: the first lag, 0, has no bank of its own.
+  static_assert(kJointLags.front() == 0);
   std::vector<core::KalmanBank> banks;
-  for (const std::size_t lag : kJointLags) {
+  for (const std::size_t lag : std::span(kJointLags).subspan(1)) {
     banks.emplace_back(setting.options, lag);
     if (core::is_usable(noise)) banks.back().expect_noise(core::noise_variance(noise));
   }
@@ -159,8 +161,14 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
         figures.alarm += model->noise.disagrees() ? 1.0 : 0.0;
       }
     }
+    std::array<core::BankEstimate, kJointLags.size()> estimates;
+    for (std::size_t i = 1; i < kJointLags.size(); ++i) {
+      const core::BankEstimates answers = banks[i - 1].step(row.noisy_dps[t]);
+      estimates[0] = answers.realtime;
+      estimates[i] = answers.denoised;
+    }
     for (std::size_t i = 0; i < kJointLags.size(); ++i) {
-      const core::BankEstimate estimate = banks[i].step(row.noisy_dps[t]).denoised;
+      const core::BankEstimate& estimate = estimates[i];
       const std::size_t lag = kJointLags[i];
       if (t < begin + lag || t >= end + lag) continue;
       const double error = estimate.rate - row.truth_dps[t - lag];
@@ -171,7 +179,7 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
       if (lag != 16) continue;
       ++judged;
       figures.normalised_error += error * error / estimate.variance;
-      figures.innovation += banks[i].normalised_innovation();
+      figures.innovation += banks[i - 1].normalised_innovation();
     }
   }
   const auto count = static_cast<double>(judged);
