@@ -11,7 +11,7 @@ enum ExitCode : int {
   kFileTrouble =
       4,  ///< a recording or calibration cannot be read or understood, or an output cannot be written
   kUnavailable = 5,  ///< DDS or the HTTP port refuses; top: no answer
-  kIncomplete = 6,   ///< done, but data are missing: a gap, nobody there, a stop that had to hurry
+  kIncomplete = 6,   ///< done, but data are missing: a gap, nobody there, a hurried stop, all samples refused
   kNotAllowed =
       7,  ///< a certificate, key, token or password file is no good, or DDS or HTTP permissions forbid it
   kTroubled = 8,       ///< top --once: gyrod is not ready, or a sensor is troubled

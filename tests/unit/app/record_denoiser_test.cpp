@@ -17,7 +17,7 @@ using core::Scheme;
 using namespace testing;
 
 constexpr std::int64_t kPeriodNs = 10'000'000;
-/// A few windows; under a sanitizer one and a half.
+/// Three windows long; under a sanitizer one and a half.
 constexpr std::size_t kLong = testing::kSlowBuild ? 1500 : 3000;
 
 /// A slow swing in noise, rad/s; y is missing where asked.
