@@ -77,10 +77,10 @@ Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& 
   const auto response = added_swing(method, plain, on, test.frequency_hz, test.amplitude_dps);
   if (!response)
     return not_applicable(test.kind, test.limit, "the judged samples hold no whole period of it");
-  Guard guard{test.kind,      verdict(std::abs(response->gain - 1.0) <= test.limit),
-              response->gain, std::nullopt,
-              test.limit,     ""};
-  if (std::isfinite(response->standard_error)) guard.standard_error = response->standard_error;
+  const bool known = std::isfinite(response->standard_error);
+  Guard guard = uncertain_guard(test.kind, {response->gain - 1.0, known ? response->standard_error : 0.0},
+                                1.0, test.limit, "the answer varies too much to tell");
+  if (!known) guard.standard_error.reset();
   guard.group_delay_samples = response->delay_samples;
   return guard;
 }
@@ -123,9 +123,10 @@ void seam_guards(const Contender& plain, const GuardCase& on, const GuardLimits&
     all.push_back(not_applicable(GuardKind::kSeamWorstStep, limits.worst_step, reason));
     return;
   }
-  const double share_limit = 0.05 + 3.0 * figures->outlier_standard_error;
+  const double share_limit =
+      std::max(0.05 + 3.0 * figures->outlier_standard_error, figures->outlier_share_by_chance);
   const double roughness_limit =
-      std::max(added_roughness(*figures, limits.roughness), figures->roughness_beside);
+      std::max(added_roughness(*figures, limits.roughness), figures->roughness_by_chance);
   const double step_limit = std::max(limits.worst_step, figures->worst_step_by_chance);
   all.push_back({GuardKind::kSeamRoughness, verdict(figures->roughness <= roughness_limit),
                  figures->roughness, std::nullopt, roughness_limit, ""});

@@ -18,9 +18,9 @@ enum class GuardKind : std::uint8_t {
   kSlowTurnGain,   ///< gain of an added 0.1 Hz, 5 deg/s swing; off 1 by 0.01 at most
   kSwingGain,      ///< gain of an added 1 Hz, 5 deg/s swing; off 1 by 0.02 at most
   kScaleFactor,    ///< gain of the record's own motion, means over 1 s; off 1 by 0.005 at most
-  kSeamRoughness,  ///< rms second difference at seams over that elsewhere; at most 1.2, or what the truth's lets expect
-  kSeamOutliers,  ///< share of second differences at seams beyond the elsewhere 95 % quantile; 0.05 + 3 standard errors at most
-  kSeamWorstStep,  ///< worst sample-to-sample step at a seam in standard deviations of those elsewhere; 3, or what those elsewhere let expect
+  kSeamRoughness,  ///< rms second difference at seams over that elsewhere; at most 1.2, or what the truth's or other places let expect
+  kSeamOutliers,  ///< share of second differences at seams beyond the elsewhere 95 % quantile; at most 0.05 + 3 standard errors, or likewise
+  kSeamWorstStep,  ///< worst sample-to-sample step at a seam in standard deviations of those elsewhere; at most 3, or likewise
   kDelay,  ///< shift of greatest correlation with the truth, samples; 0.5 at most, where that is known to 0.25
   kVibrationGain,  ///< gain of an added 27 Hz tone (fs/4 at most) of 1 deg/s; off 1 by 0.1 at most
 };

@@ -25,41 +25,75 @@ double rms(const std::vector<double>& x) noexcept {
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
-/// Sums of squares by the place in the period; a seam at place p lies in the second differences about p and p - 1.
-class Roughness {
- public:
-  explicit Roughness(std::size_t period) : squares_(period), counts_(period) {}
+/// What a figure at the other places lets expect of one more: 4 standard deviations above their mean, and at least the largest. Chance exceeds that
+/// at one of some 300 to 2000 places, the largest alone at one of as many as there are (docs/evaluate.md). 0 where there are none.
+double by_chance(std::span<const double> others) noexcept {
+  constexpr double kDeviations = 4.0;
+  if (others.empty()) return 0.0;
+  const auto count = static_cast<double>(others.size());
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double x : others) {
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / count;
+  const double variance = std::max(squares / count - mean * mean, 0.0);
+  return std::max(mean + kDeviations * std::sqrt(variance), *std::ranges::max_element(others));
+}
 
-  void add(std::size_t t, double bend) {
-    if (!std::isfinite(bend)) return;
-    const std::size_t place = t % squares_.size();
-    squares_[place] += bend * bend;
-    counts_[place] += 1.0;
-    all_ += bend * bend;
+/// The same of the largest of many, by their logarithms; those that are 0 say nothing. 0 where all are.
+double largest_by_chance(std::span<const double> others) {
+  std::vector<double> logarithms;
+  for (const double x : others) {
+    if (x > 0.0) logarithms.push_back(std::log(x));
+  }
+  return logarithms.empty() ? 0.0 : std::exp(by_chance(logarithms));
+}
+
+/// Mean of something about second differences by the place in the period; a seam at place p lies in those about p and p - 1.
+class BendMeans {
+ public:
+  explicit BendMeans(std::size_t period) : sums_(period), counts_(period) {}
+
+  void add(std::size_t t, double value) noexcept {
+    if (!std::isfinite(value)) return;
+    sums_[t % sums_.size()] += value;
+    counts_[t % sums_.size()] += 1.0;
+    sum_ += value;
     count_ += 1.0;
   }
 
-  /// @return rms at seams at this place / rms elsewhere; 0 where that says nothing
+  /// @return at seams at this place; NaN where nothing is known
   [[nodiscard]] double at(std::size_t place) const noexcept {
-    const std::size_t before = (place + squares_.size() - 1) % squares_.size();
-    const double squares = squares_[place] + squares_[before];
-    const double count = counts_[place] + counts_[before];
-    if (count == 0.0 || count == count_ || !(all_ > squares)) return 0.0;
-    return std::sqrt(squares / count / ((all_ - squares) / (count_ - count)));
+    return (sums_[place] + sums_[before(place)]) / (counts_[place] + counts_[before(place)]);
   }
-
-  /// The largest at places that share no second difference with this one.
-  [[nodiscard]] double largest_beside(std::size_t place) const noexcept {
-    double largest = 0.0;
-    for (std::size_t away = 2; away + 1 < squares_.size(); ++away)
-      largest = std::max(largest, at((place + away) % squares_.size()));
-    return largest;
+  /// @return at() / the mean elsewhere; 0 where that says nothing
+  [[nodiscard]] double ratio(std::size_t place) const noexcept {
+    const double sum = sums_[place] + sums_[before(place)];
+    const double count = counts_[place] + counts_[before(place)];
+    if (count == 0.0 || count == count_ || !(sum_ > sum)) return 0.0;
+    return sum / count / ((sum_ - sum) / (count_ - count));
+  }
+  /// What a function of the place is at those that share no second difference with this one.
+  template <class Figure>
+  [[nodiscard]] std::vector<double> beside(std::size_t place, const Figure& figure) const {
+    std::vector<double> others;
+    for (std::size_t away = 2; away + 1 < sums_.size(); ++away) {
+      const double x = figure((place + away) % sums_.size());
+      if (std::isfinite(x)) others.push_back(x);
+    }
+    return others;
   }
 
  private:
-  std::vector<double> squares_;
+  [[nodiscard]] std::size_t before(std::size_t place) const noexcept {
+    return (place + sums_.size() - 1) % sums_.size();
+  }
+
+  std::vector<double> sums_;
   std::vector<double> counts_;
-  double all_ = 0.0;
+  double sum_ = 0.0;
   double count_ = 0.0;
 };
 
@@ -68,32 +102,16 @@ class LargestSteps {
  public:
   explicit LargestSteps(std::size_t period) : largest_(period) {}
 
-  void add(std::size_t t, double step) {
+  void add(std::size_t t, double step) noexcept {
     double& largest = largest_[t % largest_.size()];
     if (std::isfinite(step)) largest = std::max(largest, std::abs(step));
   }
 
   [[nodiscard]] double at(std::size_t place) const noexcept { return largest_[place]; }
-
-  /// @return what those at the other places let expect of this one; 0 where nothing moves there
-  [[nodiscard]] double by_chance(std::size_t place) const noexcept {
-    constexpr double kDeviations = 3.0;
-    double count = 0.0;
-    double sum = 0.0;
-    double squares = 0.0;
-    double largest = 0.0;
-    for (std::size_t p = 0; p < largest_.size(); ++p) {
-      if (p == place || !(largest_[p] > 0.0)) continue;
-      const double x = std::log(largest_[p]);
-      count += 1.0;
-      sum += x;
-      squares += x * x;
-      largest = std::max(largest, largest_[p]);
-    }
-    if (count == 0.0) return 0.0;
-    const double mean = sum / count;
-    const double variance = std::max(squares / count - mean * mean, 0.0);
-    return std::max(std::exp(mean + kDeviations * std::sqrt(variance)), largest);
+  [[nodiscard]] std::vector<double> beside(std::size_t place) const {
+    std::vector<double> others = largest_;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
+    return others;
   }
 
  private:
@@ -122,32 +140,40 @@ std::optional<SeamFigures> seam_figures(const Contender& contender, std::span<co
   const std::size_t end = std::min({range.end, e.size(), truth.size()});
   Sorted bends;
   Sorted steps;
-  Roughness roughness(period);
-  Roughness of_truth(period);
+  BendMeans squares(period);
+  BendMeans of_truth(period);
   LargestSteps largest(period);
   for (std::size_t t = range.begin + 1; t + 1 < end; ++t) {
     const double bend = bend_of(e, t);
     bends.add(is_first(t) || is_first(t + 1), bend);
-    roughness.add(t, bend);
-    of_truth.add(t, bend_of(truth, t));
+    squares.add(t, bend * bend);
+    const double true_bend = bend_of(truth, t);
+    of_truth.add(t, true_bend * true_bend);
     steps.add(is_first(t), e[t] - e[t - 1]);
     largest.add(t, e[t] - e[t - 1]);
   }
   if (steps.at.size() < kFewest || bends.elsewhere.size() < kFewest || rms(bends.elsewhere) <= 0.0)
     return std::nullopt;
   const double limit = quantile_95(bends.elsewhere);
-  const double beyond =
-      static_cast<double>(std::ranges::count_if(bends.at, [limit](double bend) { return bend > limit; }));
+  BendMeans beyond(period);
+  for (std::size_t t = range.begin + 1; t + 1 < end; ++t) {
+    const double size = std::abs(bend_of(e, t));
+    if (std::isfinite(size)) beyond.add(t, size > limit ? 1.0 : 0.0);
+  }
+  const auto roughness_at = [&squares](std::size_t place) { return std::sqrt(squares.ratio(place)); };
+  const auto share_at = [&beyond](std::size_t place) { return beyond.at(place); };
+  const std::size_t place = first % period;
+  const double ordinary = rms(steps.elsewhere);
   SeamFigures figures;
-  figures.roughness = roughness.at(first % period);
-  figures.roughness_of_truth = of_truth.at(first % period);
-  figures.roughness_beside = roughness.largest_beside(first % period);
-  figures.outlier_share = beyond / static_cast<double>(bends.at.size());
+  figures.roughness = roughness_at(place);
+  figures.roughness_of_truth = std::sqrt(of_truth.ratio(place));
+  figures.roughness_by_chance = by_chance(squares.beside(place, roughness_at));
+  figures.outlier_share = share_at(place);
   // Two second differences belong to one seam: they are not independent.
   figures.outlier_standard_error = std::sqrt(0.05 * 0.95 / static_cast<double>(steps.at.size()));
-  const double ordinary = rms(steps.elsewhere);
-  figures.worst_step = largest.at(first % period) / ordinary;
-  figures.worst_step_by_chance = largest.by_chance(first % period) / ordinary;
+  figures.outlier_share_by_chance = by_chance(beyond.beside(place, share_at));
+  figures.worst_step = largest.at(place) / ordinary;
+  figures.worst_step_by_chance = largest_by_chance(largest.beside(place)) / ordinary;
   return figures;
 }
 

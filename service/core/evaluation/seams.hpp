@@ -12,8 +12,6 @@ namespace gyrod::core {
 /// the first sample of a piece.
 struct SeamFigures {
   double roughness = 0.0;  ///< rms of the second differences at seams / rms of those elsewhere
-  /// The largest such ratio if the seams were two samples or more beside where they are: what a few knocks make of it by chance.
-  double roughness_beside = 0.0;
   double roughness_of_truth =
       0.0;  ///< the ratio that the truth has at these places; 0 where it is not known or does not move
   double outlier_share =
@@ -21,8 +19,10 @@ struct SeamFigures {
   double outlier_standard_error =
       0.0;                  ///< of that share where seams are like the rest: sqrt(0.05 0.95 / seams)
   double worst_step = 0.0;  ///< greatest |step| at a seam / standard deviation of the steps elsewhere
-  /// What the largest steps at the other places of the period let expect of one more: three standard deviations of their logarithms above the
-  /// mean of these, and at least the largest. (That alone one of 32 places exceeds by chance.)
+  /// What the same three are at the other places of the period lets expect of one more: four standard deviations above their mean, of the step
+  /// by logarithms, and at least the largest. A few knocks, or second differences that go together over some hops, make more than white noise would.
+  double roughness_by_chance = 0.0;
+  double outlier_share_by_chance = 0.0;
   double worst_step_by_chance = 0.0;
 };
 

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "core/evaluation/rivals.hpp"
-#include "core/evaluation/seams.hpp"
 #include "core/evaluation/statistics.hpp"
 #include "evaluation_support.hpp"
 
@@ -89,6 +88,17 @@ TEST(Guards, DoNotJudgeADelayThatIsTooUncertain) {
   EXPECT_FALSE(guard.reason.empty());
 }
 
+// Gains of 0.96 and 1.04 by turns, 10 s each: 1 +- 0.01 in the mean, of which nobody can say whether it is within 0.01.
+TEST(Guards, DoNotJudgeAGainThatIsTooUncertain) {
+  const Change swell = [](std::vector<double>& x) {
+    for (std::size_t t = 0; t < x.size(); ++t) x[t] *= (t + 500) / 1000 % 2 == 0 ? 0.96 : 1.04;
+  };
+  const Guard guard = guard_of(GuardKind::kSlowTurnGain, swell);
+  EXPECT_EQ(guard.verdict, Verdict::kNotApplicable) << *guard.value;
+  EXPECT_NEAR(guard.standard_error.value_or(0.0), 0.01, 0.002);
+  EXPECT_FALSE(guard.reason.empty());
+}
+
 TEST(Guards, OnlyStateTheDelayOfOneThatAnswersAtOnce) {
   const Guard guard = guard_of(GuardKind::kDelay, none, 0);
   EXPECT_EQ(guard.verdict, Verdict::kNotApplicable);
@@ -126,8 +136,8 @@ TEST(Guards, DoNotTakeKnocksForSeams) {
   EXPECT_GT(*chance.value, 1.2);
   EXPECT_EQ(chance.verdict, Verdict::kPass) << "elsewhere there are more in one place";
   const Guard more =
-      guard_of(GuardKind::kSeamRoughness, knocks_at({16, 16, 16, 22, 22, 1, 3, 5, 8, 26, 29, 31}));
-  EXPECT_EQ(more.verdict, Verdict::kFail) << "nowhere else are so many";
+      guard_of(GuardKind::kSeamRoughness, knocks_at({16, 16, 16, 16, 16, 16, 22, 22, 3, 8, 26, 29}));
+  EXPECT_EQ(more.verdict, Verdict::kFail) << "nowhere else are nearly as many";
 }
 
 TEST(Guards, FailOneWithASingleLargeStepAtASeam) {
@@ -161,22 +171,6 @@ TEST(Guards, DoNotTakeTheRoughnessOfTheMotionForTheMethods) {
   EXPECT_EQ(follows.verdict, Verdict::kPass) << follows.limit;
   EXPECT_EQ(roughness(Drive(), tapped).verdict, Verdict::kFail) << "these are the method's";
   EXPECT_EQ(roughness(Drive(), stepped).verdict, Verdict::kFail);
-}
-
-// Steps of 1, 2 and 4 beside the seams: their logarithms are ln 2 on average, with a standard deviation of sqrt(2/3) ln 2.
-TEST(Guards, ExpectOfTheLargestStepAtASeamWhatOtherPlacesShow) {
-  Contender contender;
-  contender.seams = SeamPattern{4, 0};
-  contender.estimate.assign(401, 0.0);
-  for (std::size_t t = 1; t < contender.estimate.size(); ++t) {
-    const double sign = t / 4 % 2 == 0 ? 1.0 : -1.0;
-    contender.estimate[t] = contender.estimate[t - 1] + sign * std::array{0.5, 1.0, 2.0, 4.0}[t % 4];
-  }
-  const auto figures = seam_figures(contender, contender.estimate, {0, 401});
-  ASSERT_TRUE(figures);
-  const double ordinary = std::sqrt((1.0 + 4.0 + 16.0) / 3.0);
-  EXPECT_NEAR(figures->worst_step, 0.5 / ordinary, 1e-9);
-  EXPECT_NEAR(figures->worst_step_by_chance, 2.0 * std::exp2(3.0 * std::sqrt(2.0 / 3.0)) / ordinary, 1e-9);
 }
 
 TEST(Guards, FailOneThatLosesVibration) {
