@@ -15,6 +15,20 @@ bool has_member(const JointModel& model) noexcept {
   return std::ranges::any_of(model.members, &MemberModel::usable);
 }
 
+/// The next x of a process without its noise, a_1 x[0] + ... + a_p x[p-1], which comes first in its state.
+double advance(const std::array<double, kMaxNoiseColour>& a, double* x, std::size_t order) noexcept {
+  double head = 0.0;
+  double newer = 0.0;
+  for (std::size_t i = 0; i < order; ++i) {
+    const double older = x[i];
+    head += a[i] * older;
+    x[i] = newer;
+    newer = older;
+  }
+  x[0] = head;
+  return head;
+}
+
 }  // namespace
 
 KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
@@ -159,10 +173,9 @@ void KalmanBank::predict_and_update(std::size_t index, double sample, std::uint6
   double sum = 0.0;
   double* x = member.x.data();
   for (const FilterBlock& block : model.blocks.all()) {
-    double head = 0.0;
-    for (std::size_t i = 0; i < block.order; ++i) head += block.a[i] * x[i];
-    for (std::size_t i = block.order - 1; i > 0; --i) x[i] = x[i - 1];
-    x[0] = head;
+    // Nearly all are modes: with an order that the compiler knows.
+    const double head =
+        block.order == kModeOrder ? advance(block.a, x, kModeOrder) : advance(block.a, x, block.order);
     sum += head;
     signal += block.signal * head;
     x += block.order;
