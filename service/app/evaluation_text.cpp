@@ -2,7 +2,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -145,6 +147,19 @@ int guard_width(const JudgedGuards& judged) {
   return std::max(kGuardWidth, static_cast<int>(starred(judged.name).size()) + 2);
 }
 
+/// Of those who have a value: one, or, where it depends on what they made of the record, of each in the order of the columns.
+std::string limits_of(const JudgedRow& row, std::size_t guard) {
+  std::vector<std::string> limits;
+  for (const JudgedGuards& judged : row.guards) {
+    if (judged.guards[guard].value) limits.push_back(short_number(judged.guards[guard].limit));
+  }
+  if (limits.empty()) return short_number(row.guards.front().guards[guard].limit);
+  std::string text = limits.front();
+  if (std::ranges::count(limits, text) == std::ssize(limits)) return text;
+  for (const std::string& other : std::span(limits).subspan(1)) text += "; " + other;
+  return text;
+}
+
 std::string guards_table(const JudgedRow& row) {
   std::string text = "\n  " + left("guards", kNameWidth);
   for (const JudgedGuards& judged : row.guards) text += right(starred(judged.name), guard_width(judged));
@@ -157,8 +172,7 @@ std::string guards_table(const JudgedRow& row) {
     const bool gain =
         first.kind == core::GuardKind::kSlowTurnGain || first.kind == core::GuardKind::kSwingGain ||
         first.kind == core::GuardKind::kScaleFactor || first.kind == core::GuardKind::kVibrationGain;
-    text +=
-        right((gain ? "1 +- " : "") + short_number(row.guards.front().guards[i].limit), kGuardWidth) + "\n";
+    text += "  " + right((gain ? "1 +- " : "") + limits_of(row, i), kGuardWidth - 2) + "\n";
   }
   return text;
 }

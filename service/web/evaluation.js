@@ -144,12 +144,19 @@
     return { text: `${number(guard.value)} ${guard.verdict === "pass" ? "✓" : "✗ fails"}${delay}`, className: guard.verdict === "pass" ? "class-signal" : "class-noise" };
   }
 
+  // Where it depends on what they made of the record, that of each who has a value, in the order of the columns.
+  function limitsOf(guards) {
+    const known = guards.filter((g) => g.value !== null);
+    const limits = (known.length > 0 ? known : guards).map((g) => tick(Number(g.limit.toPrecision(3))));
+    return new Set(limits).size === 1 ? limits[0] : limits.join("; ");
+  }
+
   function guardsCard(parent, row) {
     const made = card(parent, "Guards");
     const names = [...new Set(row.guards.map((g) => g.name))];
     const find = (name, guard) => row.guards.find((g) => g.name === name && g.guard === guard);
     table(made, `What an estimate must not do, at a lag of ${evaluation.own_lag_samples} samples, realtime at 0, ${rowName(row)}`, ["guard", ...names.map((n) => (isTuned(n) ? `${n} *` : n)), "limit"],
-      Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${tick(Number(find(names[0], guard).limit.toPrecision(3)))}`] })), [...Array(names.length + 2).keys()]);
+      Object.entries(kGuards).map(([guard, [label, sign]]) => ({ cells: [label, ...names.map((n) => verdictCell(find(n, guard))), `${sign} ${limitsOf(names.map((n) => find(n, guard)))}`] })), [...Array(names.length + 2).keys()]);
   }
 
   function turnsCard(parent, row) {

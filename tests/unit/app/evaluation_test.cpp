@@ -2,12 +2,14 @@
 #include "app/evaluation.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/evaluation_report.hpp"
@@ -138,6 +140,36 @@ TEST(RememberedRuns, ForgetTheRecordThatWasAskedForLongestAgo) {
   EXPECT_EQ(all.runs, 3) << "was asked for again";
   EXPECT_EQ(all.answer({2.0}, 0), 2.0);
   EXPECT_EQ(all.runs, 4);
+}
+
+core::Guard seam_guard(std::optional<double> value, double limit) {
+  return {core::GuardKind::kSeamRoughness,
+          value ? core::Verdict::kPass : core::Verdict::kNotApplicable,
+          value,
+          std::nullopt,
+          limit,
+          ""};
+}
+
+/// The line of the table that is printed.
+std::string guard_line(std::vector<app::JudgedGuards> guards) {
+  const app::EvaluationRows rows = swings(1);
+  const app::EvaluationOptions options = judged_in(1);
+  std::vector<app::JudgedRow> judged = app::evaluate(rows, options);
+  judged.front().guards = std::move(guards);
+  const std::string text = app::evaluation_text({rows, options, judged});
+  const std::size_t begin = text.find("seam-roughness");
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+// 1.338 may pass beside 1.4 where joint's limit is 1.2.
+TEST(EvaluationText, GivesEachMethodsLimitWhereTheyDiffer) {
+  EXPECT_THAT(guard_line({{"joint", {seam_guard(1.017, 1.2)}},
+                          {"improved", {seam_guard(1.338, 1.4)}},
+                          {"Butterworth", {seam_guard(std::nullopt, 1.2)}}}),
+              ::testing::EndsWith(" 1.2; 1.4"));
+  EXPECT_THAT(guard_line({{"joint", {seam_guard(1.017, 1.2)}}, {"improved", {seam_guard(1.1, 1.2)}}}),
+              ::testing::EndsWith(" 1.2"));
 }
 
 }  // namespace
