@@ -9,16 +9,6 @@ namespace {
 
 constexpr std::size_t kFewest = 10;
 
-/// Sizes of differences, at seams and elsewhere.
-struct Sorted {
-  std::vector<double> at;
-  std::vector<double> elsewhere;
-
-  void add(bool seam, double value) {
-    if (std::isfinite(value)) (seam ? at : elsewhere).push_back(std::abs(value));
-  }
-};
-
 double rms(const std::vector<double>& x) noexcept {
   double sum = 0.0;
   for (const double value : x) sum += value * value;
@@ -65,13 +55,11 @@ class BendMeans {
   }
 
   /// @return at seams at this place; NaN where nothing is known
-  [[nodiscard]] double at(std::size_t place) const noexcept {
-    return (sums_[place] + sums_[before(place)]) / (counts_[place] + counts_[before(place)]);
-  }
+  [[nodiscard]] double at(std::size_t place) const noexcept { return sum_at(place) / count_at(place); }
   /// @return at() / the mean elsewhere; 0 where that says nothing
   [[nodiscard]] double ratio(std::size_t place) const noexcept {
-    const double sum = sums_[place] + sums_[before(place)];
-    const double count = counts_[place] + counts_[before(place)];
+    const double sum = sum_at(place);
+    const double count = count_at(place);
     if (count == 0.0 || count == count_ || !(sum_ > sum)) return 0.0;
     return sum / count / ((sum_ - sum) / (count_ - count));
   }
@@ -89,6 +77,12 @@ class BendMeans {
  private:
   [[nodiscard]] std::size_t before(std::size_t place) const noexcept {
     return (place + sums_.size() - 1) % sums_.size();
+  }
+  [[nodiscard]] double sum_at(std::size_t place) const noexcept {
+    return sums_[place] + sums_[before(place)];
+  }
+  [[nodiscard]] double count_at(std::size_t place) const noexcept {
+    return counts_[place] + counts_[before(place)];
   }
 
   std::vector<double> sums_;
@@ -132,45 +126,44 @@ double quantile_95(std::vector<double> x) {
 std::optional<SeamFigures> seam_figures(const Contender& contender, std::span<const double> truth,
                                         SampleRange range) {
   if (!contender.seams || contender.seams->period == 0) return std::nullopt;
-  const auto [period, first] = *contender.seams;
-  const auto is_first = [period = period, first = first](std::size_t t) {
-    return t % period == first % period;
-  };
+  const std::size_t period = contender.seams->period;
+  const std::size_t place = contender.seams->first % period;
+  const auto is_first = [period, place](std::size_t t) { return t % period == place; };
   const std::vector<double>& e = contender.estimate;
   const std::size_t end = std::min({range.end, e.size(), truth.size()});
-  Sorted bends;
-  Sorted steps;
+  std::vector<double> bends;  // sizes of those where no seam is
+  std::vector<double> steps;
+  std::vector<double> at_seams;
   BendMeans squares(period);
   BendMeans of_truth(period);
   LargestSteps largest(period);
   for (std::size_t t = range.begin + 1; t + 1 < end; ++t) {
     const double bend = bend_of(e, t);
-    bends.add(is_first(t) || is_first(t + 1), bend);
+    if (std::isfinite(bend) && !is_first(t) && !is_first(t + 1)) bends.push_back(std::abs(bend));
     squares.add(t, bend * bend);
     const double true_bend = bend_of(truth, t);
     of_truth.add(t, true_bend * true_bend);
-    steps.add(is_first(t), e[t] - e[t - 1]);
-    largest.add(t, e[t] - e[t - 1]);
+    const double step = e[t] - e[t - 1];
+    largest.add(t, step);
+    if (std::isfinite(step)) (is_first(t) ? at_seams : steps).push_back(step);
   }
-  if (steps.at.size() < kFewest || bends.elsewhere.size() < kFewest || rms(bends.elsewhere) <= 0.0)
-    return std::nullopt;
-  const double limit = quantile_95(bends.elsewhere);
+  if (at_seams.size() < kFewest || bends.size() < kFewest || rms(bends) <= 0.0) return std::nullopt;
+  const double limit = quantile_95(bends);
   BendMeans beyond(period);
   for (std::size_t t = range.begin + 1; t + 1 < end; ++t) {
     const double size = std::abs(bend_of(e, t));
     if (std::isfinite(size)) beyond.add(t, size > limit ? 1.0 : 0.0);
   }
-  const auto roughness_at = [&squares](std::size_t place) { return std::sqrt(squares.ratio(place)); };
-  const auto share_at = [&beyond](std::size_t place) { return beyond.at(place); };
-  const std::size_t place = first % period;
-  const double ordinary = rms(steps.elsewhere);
+  const auto roughness_at = [&squares](std::size_t at) { return std::sqrt(squares.ratio(at)); };
+  const auto share_at = [&beyond](std::size_t at) { return beyond.at(at); };
+  const double ordinary = rms(steps);
   SeamFigures figures;
   figures.roughness = roughness_at(place);
   figures.roughness_of_truth = std::sqrt(of_truth.ratio(place));
   figures.roughness_by_chance = by_chance(squares.beside(place, roughness_at));
   figures.outlier_share = share_at(place);
   // Two second differences belong to one seam: they are not independent.
-  figures.outlier_standard_error = std::sqrt(0.05 * 0.95 / static_cast<double>(steps.at.size()));
+  figures.outlier_standard_error = std::sqrt(0.05 * 0.95 / static_cast<double>(at_seams.size()));
   figures.outlier_share_by_chance = by_chance(beyond.beside(place, share_at));
   figures.worst_step = largest.at(place) / ordinary;
   figures.worst_step_by_chance = largest_by_chance(largest.beside(place)) / ordinary;
