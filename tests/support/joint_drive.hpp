@@ -136,8 +136,9 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
   const std::size_t hop = setting.options.hop_samples;
   core::JointFit fit(setting.window, setting.options);
   fit.set_sample_rate(setting.told_rate ? row.rate_hz : 0.0);
-  // Each answers at once, too, alike whatever its lag is: the first lag, 0, has no bank of its own.
+  // Each answers at once, too; for lag 0 that of lag 16 does, as the default has it.
   static_assert(kJointLags.front() == 0);
+  constexpr std::size_t kAtOnceOf = 16;
   std::vector<core::KalmanBank> banks;
   for (const std::size_t lag : std::span(kJointLags).subspan(1)) {
     banks.emplace_back(setting.options, lag);
@@ -164,7 +165,7 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
     std::array<core::BankEstimate, kJointLags.size()> estimates;
     for (std::size_t i = 1; i < kJointLags.size(); ++i) {
       const core::BankEstimates answers = banks[i - 1].step(row.noisy_dps[t]);
-      estimates[0] = answers.realtime;
+      if (kJointLags[i] == kAtOnceOf) estimates[0] = answers.realtime;
       estimates[i] = answers.denoised;
     }
     for (std::size_t i = 0; i < kJointLags.size(); ++i) {

@@ -56,12 +56,13 @@ double KalmanBank::member_estimate(std::size_t index, std::size_t lag) const noe
 BankEstimate KalmanBank::held(std::size_t age) const noexcept {
   assert(age <= lag_ && age < count_);
   BankEstimate estimate = combine(age);
-  estimate.rate += denoised_correction_.step;
-  ResidualCheck check = denoised_correction_.residual;
+  const Correction& correction = lag_ > 0 ? denoised_correction_ : realtime_correction_;
+  estimate.rate += correction.step;
+  ResidualCheck check = correction.residual;
   const double sample = sample_at(count_ - 1 - age);
   estimate = check.apply(sample, estimate, model_.residual_variance * unit_,
-                         beside(age, sample - estimate.rate, denoised_correction_.step), options_);
-  estimate.rate += denoised_correction_.slow.paid() + denoised_correction_.gain.paid();
+                         beside(age, sample - estimate.rate, correction.step), options_);
+  estimate.rate += correction.slow.paid() + (lag_ > 0 ? correction.gain.paid() : resized_);
   estimate.variance = widened(estimate.variance);
   return estimate;
 }
@@ -70,12 +71,12 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
                          BankEstimate& answer) noexcept {
   correction.step *= options_.hand_over_memory;
   answer.rate += correction.step;
-  const double unwanted = (model_.noise_variance + model_.beyond_band_variance) * unit_;
-  const Trust trust = unwanted > 0.0 ? Trust{.now = answer.variance / unwanted,
-                                             .expected = expected_variance(lag) / unwanted,
-                                             .settled = expected_variance(kMaxLag) / unwanted,
-                                             .motion = slow_motion_}
-                                     : Trust{};
+  const double noise = unwanted();
+  const Trust trust = noise > 0.0 ? Trust{.now = answer.variance / noise,
+                                          .expected = expected_variance(lag) / noise,
+                                          .settled = expected_variance(kMaxLag) / noise,
+                                          .motion = slow_motion_}
+                                  : Trust{};
   answer = correction.residual.apply(sample, answer, model_.residual_variance * unit_,
                                      beside(lag, sample - answer.rate, correction.step), options_);
   std::array<double, kMaxLag> newer{};
@@ -83,10 +84,34 @@ void KalmanBank::correct(double sample, std::size_t lag, Correction& correction,
   if (lag == 0) residuals_[(count_ - 1) % kRing] = sample - answer.rate;
   answer.rate =
       correction.slow.apply(sample, answer.rate, trust, options_, model_.scale, std::span(newer).first(lag));
-  const double most = lag > 0 ? options_.most_gain : options_.most_gain_at_once;
-  answer.rate = correction.gain.apply(sample, answer.rate, unwanted, most, options_, model_.scale);
-  if (lag == 0) correction.slow.take_off(correction.gain.paid());
+  if (lag > 0) answer.rate = correction.gain.apply(sample, answer.rate, noise, options_, model_.scale);
   answer.variance = widened(answer.variance);
+}
+
+/// Variance of what the samples have besides what is asked for.
+double KalmanBank::unwanted() const noexcept {
+  return (model_.noise_variance + model_.beyond_band_variance) * unit_;
+}
+
+/// The newest answer at once.
+void KalmanBank::resize_at_once(BankEstimate& answer) noexcept {
+  at_once_[(count_ - 1) % kRing] = answer.rate;
+  answer.rate = later_gain_.apply(answer.rate, unwanted(), options_, model_.scale);
+  resized_ = answer.rate - at_once_[(count_ - 1) % kRing];
+}
+
+/// What was answered at once, with what is answered now of the same sample. @return false where an answer has left the finite numbers
+bool KalmanBank::compare_later(double denoised) noexcept {
+  if (!std::isfinite(denoised)) return false;
+  if (count_ <= later_lag_) return true;
+  const std::uint64_t then = count_ - 1 - later_lag_;
+  BankEstimate later{.rate = denoised};
+  if (later_lag_ != lag_) {
+    later = combine(later_lag_);
+    correct(sample_at(then), later_lag_, later_correction_, later);
+  }
+  later_gain_.compare(later.rate, at_once_[then % kRing], options_, model_.scale);
+  return std::isfinite(later.rate);
 }
 
 /// Largest square of what estimates take off the two samples before and after x[t - lag], if that is much. A sample that is wrong by d pulls

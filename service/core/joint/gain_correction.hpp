@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/joint/joint_options.hpp"
+#include "core/joint/slow_band.hpp"
 
 namespace gyrod::core {
 
@@ -9,37 +10,26 @@ namespace gyrod::core {
 /// samples is then (1 - W) / W of it. So much is added to it. With low(x, T) the low-pass y <- y + (x - y) / T, and m(x) = x - low(x, gain_mean):
 ///   p = low(low(m(answer), gain_band), gain_band),   d the same of sample - answer,
 ///   A = low(p^2, gain_memory),   C = low(p d, gain_memory),   A and C from 0 on,
-///   q = max(0, most - |C / A - most|),   k = q^2 / (q + gain_doubt) A / (A + gain_ridge R),
+///   q = max(0, most_gain - |C / A - most_gain|),   k = q^2 / (q + gain_doubt) A / (A + gain_ridge R),
 ///   out = answer + k clamp(low(m(answer), gain_follow), -gain_clip sqrt(A), gain_clip sqrt(A)),
 /// times in samples at the model's scale, R the variance of the samples' noise. What would ask for twice the most is noise more than motion, and gets
 /// nothing; a turn, against which the noise is small, shows a C / A near 0 and is beyond the clamp.
-/// Costs little, as the error of an answer of least error is orthogonal to it: the square of k times the slow motion's variance. Without look-ahead what is
-/// added rests on less and costs more, so the most is less there.
+/// Costs little, as the error of an answer of least error is orthogonal to it: the square of k times the slow motion's variance. For answers with
+/// look-ahead; those at once are compared with these (later_gain.hpp).
 /// A plain value; finite for finite arguments.
 class GainCorrection {
  public:
   /// @param sample that the answer is of
   /// @param noise_variance R, at least 0
-  /// @param most options.most_gain, or without look-ahead options.most_gain_at_once
   /// @return out
-  [[nodiscard]] double apply(double sample, double answer, double noise_variance, double most,
-                             const JointOptions& options, const JointScale& scale) noexcept;
+  [[nodiscard]] double apply(double sample, double answer, double noise_variance, const JointOptions& options,
+                             const JointScale& scale) noexcept;
   /// What the last answer was given.
   [[nodiscard]] double paid() const noexcept { return paid_; }
 
  private:
-  /// Of a signal: its mean, and two low-passes of what is left without it.
-  struct Band {
-    double mean = 0.0;
-    double once = 0.0;
-    double twice = 0.0;
-
-    /// @return m(x)
-    double follow(double x, const JointOptions& options, const JointScale& scale) noexcept;
-  };
-
-  Band answers_;
-  Band residuals_;
+  SlowBand answers_;
+  SlowBand residuals_;
   double following_ = 0.0;
   double power_ = 0.0;       ///< A
   double covariance_ = 0.0;  ///< C

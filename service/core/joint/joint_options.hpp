@@ -130,7 +130,7 @@ struct JointOptions {
   /// The same where the estimate has trusted the samples for long, as on a road that shakes: this much of the cube of the least ratio of
   /// late, up to most_steady_correction. Motion as small as the noise is weighed against it and shrinks; here it can be given back at little
   /// cost. Range 0..1e4; 0..1.
-  double steady_correction = 45.0;
+  double steady_correction = 30.0;
   double most_steady_correction = 0.05;
   /// The same of answers with look-ahead, which may be given back more: this much of the ratio's fourth power, and up to which rate. Range 0..1e6;
   /// 0..1.
@@ -146,8 +146,6 @@ struct JointOptions {
   /// What answers with look-ahead lack of slow motion in size shows in what they leave of the samples, and is added, up to this part of them.
   /// Range 0..0.5.
   double most_gain = 0.1;
-  /// The same of answers at once, where it costs more: what is hardly too small is given back, as a swing of 1 Hz in strong noise. Range 0..0.5.
-  double most_gain_at_once = 0.03;
   /// Of that so much may be chance: what is this much counts half. Range 0..1.
   double gain_doubt = 0.01;
   /// The noise of the samples counts this much of its variance against it, where slow motion is small. Range 0..1e6.
@@ -160,6 +158,15 @@ struct JointOptions {
   double gain_follow = 3.0;
   double gain_mean = 512.0;
   double gain_memory = 4096.0;
+  /// Answers at once are compared with later ones, and made larger by this part of slow motion at the most, or smaller by that (LaterGain). Range 0..1; 0..1.
+  double most_later_gain = 0.2;
+  double most_later_loss = 0.05;
+  /// Samples: of the low-passes that make motion slow (12: below some 1 Hz), of the one of what is added, of the mean that is left as it is, and of what is
+  /// learned. Range 1..1e9.
+  double later_band = 12.0;
+  double later_follow = 8.0;
+  double later_mean = 256.0;
+  double later_memory = 2048.0;
   /// What an estimate takes off the samples is noise, up to this many times its variance in one sample, and this many in the mean of late; what
   /// is more goes back. Range 1..1e12.
   double residual_limit = 25.0;

@@ -34,6 +34,7 @@ double advance(const std::array<double, kMaxNoiseColour>& a, double* x, std::siz
 KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
     : options_(options),
       lag_(lag),
+      later_lag_(std::max(lag, kLeastLater)),
       hindsight_roots_(roots_at(lag)),
       history_(std::max(options.hand_over_samples, kRing)) {
   assert(lag <= kMaxLag && options.hand_over_samples <= kMaxHandOver);
@@ -51,6 +52,10 @@ void KalmanBank::reset() noexcept {
   slow_motion_ = SlowMotion::kUntold;
   realtime_correction_ = {};
   denoised_correction_ = {};
+  later_correction_ = {};
+  later_gain_ = {};
+  at_once_ = {};
+  resized_ = 0.0;
   normalised_innovation_ = 1.0;
 }
 
@@ -59,6 +64,8 @@ void KalmanBank::use(const JointModel& model) noexcept {
   const bool answers = count_ > lag_;
   const double realtime = answers ? combine(0).rate : 0.0;
   const double denoised = answers ? combine(lag_).rate : 0.0;
+  const bool compares = later_lag_ != lag_ && count_ > later_lag_;
+  const double later = compares ? combine(later_lag_).rate : 0.0;
   model_ = model;
   apply_options();
   unit_ = 1.0;
@@ -84,6 +91,7 @@ void KalmanBank::use(const JointModel& model) noexcept {
   if (!answers || options_.hand_over_memory == 0.0) return;
   realtime_correction_.step += realtime - combine(0).rate;
   denoised_correction_.step += denoised - combine(lag_).rate;
+  if (compares) later_correction_.step += later - combine(later_lag_).rate;
 }
 
 /// What the model makes of the options: its rate, its window, and what that spoke for.
@@ -108,13 +116,15 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   BankEstimates answer;
   answer.realtime = combine(0);
   correct(sample, 0, realtime_correction_, answer.realtime);
+  resize_at_once(answer.realtime);
   if (!std::isfinite(answer.realtime.rate)) return start_anew(sample);
   answer.denoised = answer.realtime;
-  if (count_ <= lag_) return answer;
-  if (fitted_) look_back();
-  answer.denoised = combine(lag_);
-  correct(sample_at(count_ - 1 - lag_), lag_, denoised_correction_, answer.denoised);
-  return std::isfinite(answer.denoised.rate) ? answer : start_anew(sample);
+  if (lag_ > 0 && count_ > lag_) {
+    if (fitted_) look_back();
+    answer.denoised = combine(lag_);
+    correct(sample_at(count_ - 1 - lag_), lag_, denoised_correction_, answer.denoised);
+  }
+  return compare_later(answer.denoised.rate) ? answer : start_anew(sample);
 }
 
 /// The members take the sample. @return false where none is left that can answer

@@ -10,6 +10,7 @@
 #include "core/joint/gain_correction.hpp"
 #include "core/joint/joint_model.hpp"
 #include "core/joint/joint_options.hpp"
+#include "core/joint/later_gain.hpp"
 #include "core/joint/residual_check.hpp"
 #include "core/joint/slow_correction.hpp"
 #include "core/joint/slow_motion.hpp"
@@ -33,7 +34,8 @@ struct BankEstimates {
 /// z[t-lag] from all samples but that one, and u is what w was then (bank_hindsight.cpp). What is left of the step that the last new model made (a
 /// fifth less with every sample) is taken back, so that a new model begins where the last one was. What the noise cannot have been goes back
 /// (residual_check.hpp), and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed. What the answer
-/// lacks in size is added (gain_correction.hpp).
+/// lacks in size is added (gain_correction.hpp); answers at once learn that from later ones, of kLeastLater samples' look-ahead or lag
+/// (later_gain.hpp).
 /// Before the first model, local levels answer (start_levels.hpp).
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -64,6 +66,8 @@ class KalmanBank {
   void reset() noexcept;
 
   static constexpr double kFitMemory = 256.0;
+  /// Least look-ahead of the answers that those at once are compared with, samples: where the bank answers with less, it makes them besides.
+  static constexpr std::size_t kLeastLater = 16;
 
  private:
   /// Ring of what a member made of the last samples; a power of two beyond kMaxLag.
@@ -95,6 +99,9 @@ class KalmanBank {
   };
 
   void correct(double sample, std::size_t lag, Correction& correction, BankEstimate& answer) noexcept;
+  [[nodiscard]] double unwanted() const noexcept;
+  void resize_at_once(BankEstimate& answer) noexcept;
+  [[nodiscard]] bool compare_later(double denoised) noexcept;
   [[nodiscard]] double beside(std::size_t lag, double residual, double step) const noexcept;
   [[nodiscard]] double expected_variance(std::size_t lag) const noexcept;
   [[nodiscard]] double widened(double variance) const noexcept;
@@ -121,6 +128,7 @@ class KalmanBank {
 
   JointOptions options_;
   std::size_t lag_;
+  std::size_t later_lag_;  ///< of the answers that those at once are compared with
   JointModel model_;
   bool fitted_ = false;  ///< model_ came from a window
   StartLevels start_;    ///< until then
@@ -141,6 +149,10 @@ class KalmanBank {
   double slow_motion_ = SlowMotion::kUntold;  ///< what it said of the newest sample
   Correction realtime_correction_;
   Correction denoised_correction_;
+  Correction later_correction_;  ///< of the answers at later_lag_, where that is not lag_
+  LaterGain later_gain_;
+  std::array<double, kRing> at_once_{};  ///< answers at once, before their size is changed, by time
+  double resized_ = 0.0;                 ///< what the newest was given in size
   double normalised_innovation_ = 1.0;
 };
 

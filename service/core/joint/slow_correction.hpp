@@ -38,8 +38,6 @@ class SlowCorrection {
                              const JointScale& scale, std::span<const double> newer = {}) noexcept;
   /// What the last answer was given.
   [[nodiscard]] double paid() const noexcept { return paid_; }
-  /// So much of what is owed the answer has been given otherwise.
-  void take_off(double given) noexcept { owed_ -= given; }
 
  private:
   [[nodiscard]] double steady_rate(const Trust& trust, const JointOptions& options, const JointScale& scale,

@@ -39,7 +39,8 @@ inline core::JointOptions bare() {
   options.steady_correction = 0.0;
   options.late_steady_correction = 0.0;
   options.most_gain = 0.0;
-  options.most_gain_at_once = 0.0;
+  options.most_later_gain = 0.0;
+  options.most_later_loss = 0.0;
   options.variance_factor = 1.0;
   options.hand_over_memory = 0.0;
   return options;

@@ -35,13 +35,12 @@ struct Swinging {
   JointOptions options{};
   double gain = 0.94;
   double noise_variance = 0.0;
-  double most = JointOptions{}.most_gain;
   int n = 0;
 
   /// @return what was added
   double step() {
     const double x = swing(n++);
-    static_cast<void>(correction.apply(x, gain * x, noise_variance, most, options, JointScale{}));
+    static_cast<void>(correction.apply(x, gain * x, noise_variance, options, JointScale{}));
     return correction.paid();
   }
   void settle() {
@@ -91,14 +90,6 @@ TEST(GainCorrection, IsLessSureTheMoreIsMissing) {
   EXPECT_EQ(noise.share(), 0.0);
 }
 
-// With a most of 0.03 an answer that is too small by 0.02 is given as much as any is; one that is too small by 0.06 or more nothing.
-TEST(GainCorrection, GivesWhatIsHardlyTooSmallAsMuchWhateverTheMost) {
-  Swinging little{.gain = 1.0 / 1.02, .most = 0.03};
-  EXPECT_NEAR(little.share(), surely(0.02) * follows(), 1e-6);
-  Swinging much{.gain = 1.0 / 1.06, .most = 0.03};
-  EXPECT_NEAR(much.share(), 0.0, 1e-9);
-}
-
 // With noise of variance R the share is A / (A + ridge R) of that without: 1 / ratio - 1 grows as R.
 TEST(GainCorrection, IsLessSureTheMoreNoiseThereIs) {
   const auto excess = [](double noise_variance) {
@@ -118,7 +109,7 @@ TEST(GainCorrection, IsLessSureTheMoreNoiseThereIs) {
 TEST(GainCorrection, LeavesAConstantAsItIs) {
   GainCorrection correction;
   for (int n = 0; n < 1000; ++n)
-    EXPECT_EQ(correction.apply(5.0, 4.7, 0.1, 0.1, JointOptions{}, JointScale{}), 4.7);
+    EXPECT_EQ(correction.apply(5.0, 4.7, 0.1, JointOptions{}, JointScale{}), 4.7);
 }
 
 // After small motion a turn of a hundred times its size comes, which the answer follows: what is added stays below most_gain times gain_clip standard
@@ -131,8 +122,8 @@ TEST(GainCorrection, AddsNextToNothingToATurn) {
   for (int n = begin; n < begin + 1200; ++n) {
     const double turn = 100.0 * std::min((n - begin) / 36.0, 1.0);
     const double answer = 0.94 * swing(n) + turn;
-    static_cast<void>(swinging.correction.apply(swing(n) + turn, answer, 0.0, swinging.most, swinging.options,
-                                                JointScale{}));
+    static_cast<void>(
+        swinging.correction.apply(swing(n) + turn, answer, 0.0, swinging.options, JointScale{}));
     most = std::max(most, std::abs(swinging.correction.paid()));
   }
   EXPECT_LT(most, 0.005 * 100.0);
@@ -148,8 +139,8 @@ TEST(GainCorrection, KeepsItsTimesInSeconds) {
   GainCorrection scaled;
   GainCorrection expected;
   for (int n = 0; n < 2000; ++n) {
-    EXPECT_EQ(scaled.apply(swing(n), 0.94 * swing(n), 1.0, 0.1, JointOptions{}, JointScale(480.0, 1024)),
-              expected.apply(swing(n), 0.94 * swing(n), 1.0, 0.1, longer, JointScale{}));
+    EXPECT_EQ(scaled.apply(swing(n), 0.94 * swing(n), 1.0, JointOptions{}, JointScale(480.0, 1024)),
+              expected.apply(swing(n), 0.94 * swing(n), 1.0, longer, JointScale{}));
   }
   EXPECT_NE(scaled.paid(), 0.0);
 }
@@ -161,8 +152,7 @@ TEST(GainCorrection, IsFiniteAndGoesOnAfterTheLargestNumbers) {
   swinging.settle();
   for (int n = 0; n < 100; ++n) {
     const double huge = n % 2 == 0 ? kLargest : -kLargest;
-    EXPECT_EQ(swinging.correction.apply(huge, 0.5 * huge, 0.1, swinging.most, swinging.options, JointScale{}),
-              0.5 * huge);
+    EXPECT_EQ(swinging.correction.apply(huge, 0.5 * huge, 0.1, swinging.options, JointScale{}), 0.5 * huge);
   }
   swinging.n = 0;
   EXPECT_NEAR(swinging.share(), surely((1.0 - 0.94) / 0.94) * follows(), 1e-4);
