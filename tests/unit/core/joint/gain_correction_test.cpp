@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "unit/core/joint/swing_support.hpp"
 
 namespace gyrod {
 namespace {
@@ -16,18 +16,12 @@ namespace {
 using core::GainCorrection;
 using core::JointOptions;
 using core::JointScale;
+using testing::low_pass;
+using testing::share_in_phase;
+using testing::swing;
 
-constexpr double kPeriod = 240.0;  // samples: 0.5 Hz at the design's rate
 /// Long enough for all that is learned: e^-12.
 constexpr int kSettled = 12 * 4096;
-
-double swing(int n) { return std::sin(2.0 * std::numbers::pi * n / kPeriod); }
-
-/// Of y <- y + (x - y) / samples, for the swing.
-std::complex<double> low_pass(double samples) {
-  const std::complex<double> back = std::polar(1.0, -2.0 * std::numbers::pi / kPeriod);
-  return (1.0 / samples) / (1.0 - (1.0 - 1.0 / samples) * back);
-}
 
 /// Of an answer that is `gain` times the swing, with the swing as samples.
 struct Swinging {
@@ -49,14 +43,8 @@ struct Swinging {
   /// What is added in parts of the answer: of its component in phase.
   double share() {
     settle();
-    double in_phase = 0.0;
-    double power = 0.0;
-    for (int k = 0; k < 10 * static_cast<int>(kPeriod); ++k) {
-      const double x = gain * swing(n);
-      in_phase += step() * x;
-      power += x * x;
-    }
-    return in_phase / power;
+    return share_in_phase(
+        n, [this](int k) { return gain * swing(k); }, [this](int) { return step(); });
   }
 };
 

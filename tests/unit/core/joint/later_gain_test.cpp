@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "unit/core/joint/swing_support.hpp"
 
 namespace gyrod {
 namespace {
@@ -16,18 +17,13 @@ namespace {
 using core::JointOptions;
 using core::JointScale;
 using core::LaterGain;
+using testing::kSwingPeriod;
+using testing::low_pass;
+using testing::share_in_phase;
+using testing::swing;
 
-constexpr double kPeriod = 240.0;  // samples: 0.5 Hz at the design's rate
 /// Long enough for all that is learned: e^-12.
 constexpr int kSettled = 12 * 2048;
-
-double swing(double n) { return std::sin(2.0 * std::numbers::pi * n / kPeriod); }
-
-/// Of y <- y + (x - y) / samples, for the swing.
-std::complex<double> low_pass(double samples) {
-  const std::complex<double> back = std::polar(1.0, -2.0 * std::numbers::pi / kPeriod);
-  return (1.0 / samples) / (1.0 - (1.0 - 1.0 / samples) * back);
-}
 
 /// Of answers at once that are `gain` times the swing, `late` samples after it, with the swing as later answers.
 struct Swinging {
@@ -49,14 +45,8 @@ struct Swinging {
   /// What is added in parts of the answer: of its component in phase.
   double share() {
     while (n < kSettled) step();
-    double in_phase = 0.0;
-    double power = 0.0;
-    for (int k = 0; k < 10 * static_cast<int>(kPeriod); ++k) {
-      const double x = gain * swing(n - late);
-      in_phase += step() * x;
-      power += x * x;
-    }
-    return in_phase / power;
+    return share_in_phase(
+        n, [this](int k) { return gain * swing(k - late); }, [this](int) { return step(); });
   }
 };
 
@@ -86,7 +76,7 @@ TEST(LaterGain, TakesAwayWhatIsTooMuch) {
 // times the 2 * 2 pi / 240 that it turns by in a sample, 5 % of what is lacking.
 TEST(LaterGain, MakesUpForWhatLatenessTakesOfTheSize) {
   Swinging swinging{.gain = 1.0, .late = 15.0};
-  const double expected = surely(1.0 - std::cos(2.0 * std::numbers::pi * 15.0 / kPeriod)) * follows();
+  const double expected = surely(1.0 - std::cos(2.0 * std::numbers::pi * 15.0 / kSwingPeriod)) * follows();
   EXPECT_NEAR(swinging.share(), expected, 0.05 * expected);
 }
 
