@@ -78,7 +78,7 @@ class SlowLoop {
                    .hop = static_cast<stream::Position>(run.options.hop_samples),
                    .max_hop = static_cast<stream::Position>(run.options.hop_samples),
                    .lag = 0}) {
-    for (auto& model : models_) model = factory_.model();
+    for (auto& model : models_) model = factory_.model(run.window_samples);
     unmeasured_.resize(run.window_samples << run.doublings, 0.0);
     prepare_method();
   }

@@ -37,7 +37,7 @@ Channel::Channel(std::string sensor, const EngineOptions& options, const ModelMe
       jobs_(options.max_queued_windows),
       judge_(options.health, options.window_samples) {
   if (models != nullptr) {
-    fast_loop.emplace(*models, options.lag_samples);
+    fast_loop.emplace(*models, options.window_samples, options.lag_samples);
   } else {
     splice.emplace(options.lag_samples);
   }

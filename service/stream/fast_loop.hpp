@@ -29,10 +29,10 @@ struct ModelOrigin {
 /// Runs in the thread that pushes. Allocates nothing after construction.
 class FastLoop {
  public:
-  FastLoop(const ModelMethodFactory& factory, std::size_t lag_samples) {
+  FastLoop(const ModelMethodFactory& factory, std::size_t window_samples, std::size_t lag_samples) {
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
       filters_[axis] = factory.filter(lag_samples);
-      models_[axis] = factory.model();
+      models_[axis] = factory.model(window_samples);
     }
   }
 

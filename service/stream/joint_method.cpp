@@ -32,8 +32,12 @@ constexpr double kSteady = 512.0;
 constexpr double kOtherRate = 0.25;
 
 struct JointState final : Model {
+  explicit JointState(std::size_t window_samples) {
+    joint.lasting.make_room(core::RecencyTapers::bins(window_samples));
+  }
   void reset() noexcept override {
-    joint = {};
+    static_cast<core::BankModel&>(joint) = {};
+    joint.lasting.forget();
     sample_rate_hz = 0.0;
   }
   [[nodiscard]] double noise_variance() const noexcept override { return joint.noise_variance; }
@@ -45,6 +49,7 @@ struct JointState final : Model {
     if (other) {
       joint.noise = {};
       joint.lines = {};
+      joint.lasting.forget();
       joint.noise_variance = 0.0;
     }
     if (other || sample_rate_hz == 0.0) sample_rate_hz = rate_hz;
@@ -205,7 +210,7 @@ ModelMethodFactory joint_method(const core::JointOptions& options, double max_si
             own.hop_samples = hop_samples;
             return std::make_unique<JointMethod>(window_samples, own, max_signal_hz);
           },
-      .model = [] { return std::make_unique<JointState>(); },
+      .model = [](std::size_t window_samples) { return std::make_unique<JointState>(window_samples); },
       .filter =
           [options](std::size_t lag_samples) { return std::make_unique<JointFilter>(options, lag_samples); }};
 }

@@ -135,8 +135,8 @@ struct WindowMethodFactory {
 struct ModelMethodFactory {
   /// One a worker, and for each window and hop in use.
   std::function<std::unique_ptr<ModelMethod>(std::size_t window_samples, std::size_t hop_samples)> method;
-  /// One an axis of a channel.
-  std::function<std::unique_ptr<Model>()> model;
+  /// One an axis of a channel, with room for windows of this length.
+  std::function<std::unique_ptr<Model>(std::size_t window_samples)> model;
   /// One an axis of a channel.
   std::function<std::unique_ptr<SampleFilter>(std::size_t lag_samples)> filter;
 };

@@ -49,6 +49,12 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("drive_log_prior", options.drive_log_prior);
   set("hand_over_memory", options.hand_over_memory);
   set("still_log_prior", options.still_log_prior);
+  set("lasting_windows", options.lasting_windows);
+  set("lasting_iterations", options.lasting_iterations);
+  set("lasting_final_iterations", options.lasting_final_iterations);
+  set("lasting_resonance_gain", options.lasting_resonance_gain);
+  set("lasting_prune_gain", options.lasting_prune_gain);
+  set("lasting_log_prior", options.lasting_log_prior);
   set("full_evidence", options.full_evidence);
   set("least_full_prior", options.least_full_prior);
   set("switching_rate", options.switching_rate);

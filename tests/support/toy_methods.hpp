@@ -110,7 +110,7 @@ class LastSampleMethod final : public stream::ModelMethod {
 
 [[nodiscard]] inline stream::ModelMethodFactory last_sample_method(std::function<void()> on_window = {}) {
   return {[on_window](std::size_t, std::size_t) { return std::make_unique<LastSampleMethod>(on_window); },
-          [] { return std::make_unique<LastSampleModel>(); },
+          [](std::size_t) { return std::make_unique<LastSampleModel>(); },
           [](std::size_t lag) { return std::make_unique<LastSampleFilter>(lag); }};
 }
 

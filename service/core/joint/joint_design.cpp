@@ -42,18 +42,20 @@ void JointFit::design(JointModel& model) noexcept {
   const double less = 1.0 / options_.drive_ratio;
   make(blocks_of(full_, less), MemberKind::kCalm, model);
   make(blocks_of(full_, less * less), MemberKind::kStill, model);
+  if (!make(blocks_of(lasting_, 1.0), MemberKind::kLasting, model)) model.lasting.forget();
 }
 
-/// A member in the data's unit. One that cannot be made keeps what it was.
-void JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept {
+/// A member in the data's unit. One that cannot be made keeps what it was. @return whether it was made
+bool JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept {
   MemberModel& member = model.member(kind);
   if (!designer_.design(blocks, noise_.white_variance, member)) {
     ++model.fallbacks;
-    return;
+    return false;
   }
   member.innovation_variance *= unit_;
   member.prediction_variance *= unit_;
   member.white_variance *= unit_;
+  return true;
 }
 
 /// The modes, all but the slow one and a tone driven drive_ratio times as hard, with their roots pulled in; and the noise's colour and lines.

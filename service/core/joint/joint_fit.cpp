@@ -4,22 +4,18 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "core/denoise/noise_line.hpp"
 #include "core/signal/moments.hpp"
 #include "core/signal/notch.hpp"
-#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
 
 /// A level below this is that of another noise than the one that was measured.
 constexpr double kOtherNoise = 0.5;
-/// What a mode's drive is multiplied by at the start where its IMF holds no more than noise.
-constexpr double kLeastShare = 0.05;
 
 }  // namespace
 
@@ -87,7 +83,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   for (const NoiseLine& line : lines()) notch(centred_, line.cycles, line.half_width);
   decompose(report);
   start_tone(tone);
-  fit_modes();
+  fit_modes(model.lasting);
   follow_lines(model.lines, window.size());
   model.mean = report.mean;
   model.scale = scale_;
@@ -194,73 +190,6 @@ void JointFit::describe(std::span<const double> imf, WindowReport& report) const
   report.k = index;
   figures.imf_class = figures.excess < options_.least_excess ? ImfClass::kNoise : ImfClass::kMixed;
   if (figures.imf_class == ImfClass::kNoise && report.j + 1 == index) report.j = index;
-}
-
-void JointFit::start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept {
-  std::array<double, kModeOrder + 1> r{};
-  tapers_.autocovariance(imf, r);
-  for (double& value : r) value /= unit_;
-  const bool slow = figures.imf_class == ImfClass::kSignal;
-  SpectralMode mode = whittle_.mode_of(r, slow);
-  if (!slow) mode.drive *= std::max(1.0 - 1.0 / figures.excess, kLeastShare);
-  if (slow || mode.drive > 0.0) full_.add(mode);
-}
-
-/// A mode to start from, of this variance in the periodogram's unit, with poles of this radius.
-SpectralMode JointFit::oscillation(double cycles, double power, double pole) const noexcept {
-  std::array<double, kModeOrder + 1> r{};
-  for (std::size_t lag = 0; lag < r.size(); ++lag) {
-    r[lag] = power * portable_sine_cosine(cycles * static_cast<double>(lag)).cosine;
-    power *= pole;
-  }
-  return whittle_.mode_of(r, false);
-}
-
-/// An IMF holds a tone together with much else, and its mode is too wide for it: the tone gets one of its own.
-void JointFit::start_tone(const Tone& tone) noexcept {
-  if (!(tone.amplitude > 0.0) || full_.full()) return;
-  SpectralMode mode =
-      oscillation(tone.frequency_cycles, tone.amplitude * tone.amplitude / 2.0, options_.tone_pole);
-  mode.tone = true;
-  if (mode.drive > 0.0) full_.add(mode);
-}
-
-/// So does what is wider, or another tone, where the modes so far leave it unexplained.
-void JointFit::find_resonances() noexcept {
-  for (int i = 0; i < options_.resonances && !full_.full(); ++i) {
-    const WhittleFit::Band band = whittle_.least_explained(full_);
-    if (!(band.gain >= options_.resonance_gain && band.power > 0.0)) return;
-    const double pole = portable_exp(-std::numbers::pi * band.width_cycles);
-    const SpectralMode mode = oscillation(band.centre_cycles, band.power, pole);
-    if (!(mode.drive > 0.0)) return;
-    full_.add(mode);
-    whittle_.iterate(full_, options_.resonance_iterations);
-  }
-}
-
-/// The full set in the eyes of the tapers that look at the newest samples most, the pruned one in the eyes of the others. The first is left in
-/// whittle_.
-void JointFit::fit_modes() noexcept {
-  whittle_.iterate(full_, options_.pruned_iterations);
-  find_resonances();
-  pruned_ = full_;
-  for (double& power : pruned_periodogram_) power /= unit_;
-  whittle_.observe(pruned_periodogram_);
-  whittle_.iterate(pruned_, options_.pruned_iterations);
-  whittle_.prune(pruned_, options_.prune_gain);
-  whittle_.iterate(pruned_, options_.final_iterations);
-  whittle_.observe(periodogram_);
-  whittle_.iterate(full_, options_.full_iterations - options_.pruned_iterations);
-  share_out(full_);
-  share_out(pruned_);
-}
-
-/// Where nothing but the slow mode is left after pruning, what the full set has beside it may be the noise's: it then counts by what it buys.
-double JointFit::prior_of_full() noexcept {
-  if (pruned_.size() > 1) return 1.0;
-  const double bought = 2.0 * (whittle_.log_likelihood(full_) - whittle_.log_likelihood(pruned_));
-  if (!(bought < options_.full_evidence)) return 1.0;
-  return std::max(portable_exp(0.5 * (bought - options_.full_evidence)), options_.least_full_prior);
 }
 
 void JointFit::follow_lines(LineTrackers& trackers, std::size_t samples) noexcept {

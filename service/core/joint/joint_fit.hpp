@@ -71,11 +71,13 @@ class JointFit {
   void start_mode(std::span<const double> imf, const ImfFigures& figures) noexcept;
   void start_tone(const Tone& tone) noexcept;
   [[nodiscard]] SpectralMode oscillation(double cycles, double power, double pole) const noexcept;
-  void find_resonances() noexcept;
-  void fit_modes() noexcept;
+  void find_resonances(ModeSet& modes, double least_gain) noexcept;
+  void fit_modes(LastingSpectrum& lasting) noexcept;
+  void name_slow_mode(ModeSet& modes) noexcept;
+  void fit_lasting(LastingSpectrum& lasting) noexcept;
   [[nodiscard]] double prior_of_full() noexcept;
   void design(JointModel& model) noexcept;
-  void make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
+  bool make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
   [[nodiscard]] double left_out() noexcept;
   /// How much of a window is new since the last one.
@@ -116,6 +118,7 @@ class JointFit {
   double max_signal_cycles_ = 1.0;
   ModeSet full_;
   ModeSet pruned_;
+  ModeSet lasting_;
 };
 
 }  // namespace gyrod::core

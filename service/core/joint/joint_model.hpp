@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/joint/joint_options.hpp"
+#include "core/joint/lasting_spectrum.hpp"
 #include "core/joint/line_tracker.hpp"
 #include "core/joint/member_model.hpp"
 #include "core/joint/noise_tracker.hpp"
@@ -14,18 +15,19 @@ namespace gyrod::core {
 
 /// The members of the bank. Each answers for a kind of motion; how well it predicts decides its weight.
 enum class MemberKind : std::uint8_t {
-  kFull,    ///< all modes of the fit
-  kPruned,  ///< the modes that pay
-  kLevel,   ///< the pruned ones and a nearly constant rate: a turn begins
-  kSlope,   ///< the pruned ones and a nearly constant acceleration: a turn winds up
-  kRough,   ///< all modes, driven harder: a bump
-  kCalm,    ///< all modes, driven less: smooth road
-  kStill,   ///< all modes, hardly driven: little moves but what is slow
+  kFull,     ///< all modes of the fit
+  kPruned,   ///< the modes that pay
+  kLevel,    ///< the pruned ones and a nearly constant rate: a turn begins
+  kSlope,    ///< the pruned ones and a nearly constant acceleration: a turn winds up
+  kRough,    ///< all modes, driven harder: a bump
+  kCalm,     ///< all modes, driven less: smooth road
+  kStill,    ///< all modes, hardly driven: little moves but what is slow
+  kLasting,  ///< the modes of the last windows together
 };
-inline constexpr std::size_t kMembers = 7;
+inline constexpr std::size_t kMembers = 8;
 
-/// A plain value of about 20 KB: copied, never shared.
-struct JointModel {
+/// What the fast loop takes of it. A plain value of about 25 KB: copied, never shared.
+struct BankModel {
   double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
   double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared
   /// Of the modes that are no signal because they lie beyond the signal band; 0 where none is set.
@@ -53,6 +55,11 @@ struct JointModel {
   }
   /// False until a window has been fitted.
   [[nodiscard]] bool usable() const noexcept { return member(MemberKind::kFull).usable; }
+};
+
+/// And what the next window's fit goes on from.
+struct JointModel : BankModel {
+  LastingSpectrum lasting;
 };
 
 }  // namespace gyrod::core

@@ -60,7 +60,7 @@ struct JointOptions {
   /// one that stands out keeps nearly all. It is the prior density drive^-k with k = shrinkage N / 2. Range 0..0.5.
   double shrinkage = 0.0055;
   /// Bandwidth below which a mode other than the slow one is not narrowed by the fit, cycles per sample. Range 0..0.1.
-  double bandwidth_cycles = 0.001;
+  double bandwidth_cycles = 0.0007;
   /// How far a narrow tone must stand out to get a mode of its own: white noise shows such a one in 0.5 % of windows, and the fit finds
   /// how much there is of it. Range 1..1e12.
   double tone_prominence = 12.0;
@@ -75,6 +75,15 @@ struct JointOptions {
   int resonance_iterations = 5;
   /// A mode is kept by pruning where it buys at least this much of twice the log-likelihood. Range 0..1e4.
   double prune_gain = 20.0;
+  /// The lasting member's modes are fitted to the mean periodogram of the windows so far, in which a window counts for this many of its lengths. Range
+  /// 0.1..100.
+  double lasting_windows = 1.0;
+  /// Iterations of its EM fit with every window, before bands that are explained too little get modes and after pruning. Range 1..100.
+  int lasting_iterations = 10;
+  int lasting_final_iterations = 5;
+  /// As resonance_gain and prune_gain: a mean of several windows shows as much by chance more seldom. Range 1..1e12; 0..1e4.
+  double lasting_resonance_gain = 5.0;
+  double lasting_prune_gain = 2.0;
   /// Roots of every mode are pulled in by this factor, so that the filter forgets. Range 0.9..1.
   double pole_factor = 0.99995;
   /// The agile members' poles: nearly constant rate, nearly constant acceleration. Range 0..1.
@@ -85,10 +94,11 @@ struct JointOptions {
   /// The rough and the calm member: the full set with all modes but the slow one driven by this many times the variance, and by its
   /// inverse; the still one by the square of its inverse. Range 1..1000.
   double drive_ratio = 4.0;
-  /// Logarithm of the prior weight of an agile member, of the rough and the calm one, and of the still one. Range -100..0.
+  /// Logarithm of the prior weight of an agile member, of the rough and the calm one, of the still and of the lasting one. Range -100..0.
   double agile_log_prior = -1.0;
   double drive_log_prior = -1.0;
   double still_log_prior = -0.5;
+  double lasting_log_prior = -0.5;
   /// Where pruning leaves nothing but the slow mode, the full set and the rough member weigh e^(g/2) of that a priori, g what twice the log-likelihood of
   /// the full set is beyond that of the pruned one and this: what the window's noise alone buys. Range 0..1e4.
   double full_evidence = 20.0;

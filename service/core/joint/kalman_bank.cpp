@@ -11,7 +11,7 @@ namespace gyrod::core {
 namespace {
 
 /// Whether one of the members can answer.
-bool has_member(const JointModel& model) noexcept {
+bool has_member(const BankModel& model) noexcept {
   return std::ranges::any_of(model.members, &MemberModel::usable);
 }
 
@@ -59,7 +59,7 @@ void KalmanBank::reset() noexcept {
   normalised_innovation_ = 1.0;
 }
 
-void KalmanBank::use(const JointModel& model) noexcept {
+void KalmanBank::use(const BankModel& model) noexcept {
   if (!model.usable()) return;
   const bool answers = count_ > lag_;
   const double realtime = answers ? combine(0).rate : 0.0;
@@ -99,7 +99,14 @@ void KalmanBank::apply_options() noexcept {
   const double full = model_.full_prior;
   const double agile = portable_exp(options_.agile_log_prior);
   const double drive = portable_exp(options_.drive_log_prior);
-  prior_ = {full, 1.0, agile, agile, full * drive, drive, portable_exp(options_.still_log_prior)};
+  prior_ = {full,
+            1.0,
+            agile,
+            agile,
+            full * drive,
+            drive,
+            portable_exp(options_.still_log_prior),
+            portable_exp(options_.lasting_log_prior)};
   switching_rate_ = model_.scale.switching_rate(options_.switching_rate);
   hindsight_rate_ = model_.scale.switching_rate(options_.hindsight_rate);
   fit_memory_ = model_.scale.memory(kFitMemory);

@@ -49,7 +49,7 @@ class KalmanBank {
 
   /// Takes over a model (copied) from the next sample on: its members run over the last hand_over_samples first, and inherit the
   /// weights. A model that is not usable is ignored.
-  void use(const JointModel& model) noexcept;
+  void use(const BankModel& model) noexcept;
   /// Variance of the sensor's noise, unit^2, as known before there is a model; 0 (at first): it is guessed. Used until the first model, and
   /// again after reset().
   void expect_noise(double variance) noexcept { start_.expect_noise(variance); }
@@ -129,7 +129,7 @@ class KalmanBank {
   JointOptions options_;
   std::size_t lag_;
   std::size_t later_lag_;  ///< of the answers that those at once are compared with
-  JointModel model_;
+  BankModel model_;
   bool fitted_ = false;  ///< model_ came from a window
   StartLevels start_;    ///< until then
   double switching_rate_ = 0.0;

@@ -1,6 +1,7 @@
 /// Recency-warped sine tapers: spectra of a window that look at its newest part most.
 #pragma once
 
+#include <bit>
 #include <complex>
 #include <cstddef>
 #include <span>
@@ -27,6 +28,10 @@ class RecencyTapers {
   [[nodiscard]] std::size_t transform_samples() const noexcept { return transform_samples_; }
   /// Frequencies 2 pi k / transform_samples(), k = 0 .. transform_samples() / 2.
   [[nodiscard]] std::size_t bins() const noexcept { return transform_samples_ / 2 + 1; }
+  /// bins() for windows of this length at the most.
+  [[nodiscard]] static constexpr std::size_t bins(std::size_t max_samples) noexcept {
+    return std::bit_ceil(max_samples) / 2 + 1;
+  }
 
   /// Mean over the tapers of the periodogram |sum_i t_k(i) x_i e^-iwi|^2, unit^2 per sample: of white noise of variance s^2 it is
   /// s^2 on average.

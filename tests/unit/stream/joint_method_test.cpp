@@ -59,7 +59,7 @@ struct Axis {
 
   ModelMethodFactory factory;
   std::unique_ptr<ModelMethod> method = factory.method(kJointWindow, 32);
-  std::unique_ptr<Model> model = factory.model();
+  std::unique_ptr<Model> model = factory.model(kJointWindow);
   std::unique_ptr<SampleFilter> filter = factory.filter(kJointLag);
 };
 
@@ -87,7 +87,7 @@ TEST(JointMethod, TellsShakingThatAxesShareFromNoise) {
     windows[axis].sample_rate_hz = 100.0;
   }
   const auto noise_of = [&](std::size_t axis) {
-    const std::unique_ptr<Model> model = factory.model();
+    const std::unique_ptr<Model> model = factory.model(kJointWindow);
     core::WindowReport report;
     method->fit(windows[axis], *model, report);
     return model->noise_variance();

@@ -29,7 +29,7 @@ class MisfitOfAFilter : public ::testing::Test {
   /// @param believed the noise's variance, in parts of what it is; 0: nothing is
   void use(double rate_hz, double believed) {
     const auto noise = testing::times(testing::white_noise(1024, 1), kStd);
-    const auto model = factory_.model();
+    const auto model = factory_.model(1024);
     const auto method = factory_.method(1024, 32);
     core::WindowReport report;
     const WindowInput window{.samples = noise,

@@ -284,6 +284,7 @@ TEST(JointFit, AllocatesNothingAfterConstruction) {
   JointFit fit(kWindow);
   WindowReport report;
   JointModel model;
+  model.lasting.make_room(core::RecencyTapers::bins(kWindow));
   const auto before = testing::allocations();
   fit.fit(z, core::white_noise(0.09), model, report);
   fit.fit(std::span(z).first(500), {}, model, report);

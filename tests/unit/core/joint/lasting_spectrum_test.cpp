@@ -1,0 +1,123 @@
+// The mean spectrum of a channel's windows, and what a member that is fitted to it finds.
+#include "core/joint/lasting_spectrum.hpp"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/allocation_counter.hpp"
+#include "support/signals.hpp"
+#include "unit/core/joint/joint_support.hpp"
+
+namespace gyrod {
+namespace {
+
+using core::LastingSpectrum;
+using testing::Signal;
+
+using Bins = std::array<double, 3>;
+
+Bins mean_of(const LastingSpectrum& lasting, double unit = 1.0) {
+  Bins mean{};
+  lasting.mean(unit, mean);
+  return mean;
+}
+
+TEST(LastingSpectrum, IsTheMeanOfAllWindowsUntilLaterOnesCountMore) {
+  LastingSpectrum lasting;
+  lasting.observe(Bins{1.0, 2.0, 3.0}, 1.0, 1.0, 0.25);
+  EXPECT_EQ(mean_of(lasting), (Bins{1.0, 2.0, 3.0}));
+  lasting.observe(Bins{3.0, 2.0, 1.0}, 1.0, 1.0, 0.25);
+  EXPECT_EQ(mean_of(lasting), (Bins{2.0, 2.0, 2.0}));
+  lasting.observe(Bins{2.0, 2.0, 2.0}, 1.0, 1.0, 0.25);
+  lasting.observe(Bins{6.0, 2.0, 2.0}, 1.0, 1.0, 0.25);
+  EXPECT_NEAR(mean_of(lasting)[0], 3.0, 1e-15);
+  lasting.observe(Bins{7.0, 2.0, 2.0}, 1.0, 1.0, 0.25);
+  EXPECT_NEAR(mean_of(lasting)[0], 4.0, 1e-15) << "a quarter, not a fifth";
+}
+
+TEST(LastingSpectrum, ShortWindowsCountForLess) {
+  LastingSpectrum lasting;
+  lasting.observe(Bins{9.0, 0.0, 0.0}, 1.0, 0.01, 0.25);
+  EXPECT_EQ(mean_of(lasting)[0], 9.0);
+  lasting.observe(Bins{}, 1.0, 0.99, 0.25);
+  EXPECT_NEAR(mean_of(lasting)[0], 0.09, 1e-15);
+  for (int i = 0; i < 3; ++i) lasting.observe(Bins{}, 1.0, 1.0, 0.25);
+  const double before = mean_of(lasting)[0];
+  lasting.observe(Bins{}, 1.0, 0.04, 0.25);
+  EXPECT_NEAR(mean_of(lasting)[0], 0.99 * before, 1e-15);
+}
+
+TEST(LastingSpectrum, IsInTheDatasUnit) {
+  LastingSpectrum lasting;
+  lasting.observe(Bins{1.0, 2.0, 3.0}, 4.0, 1.0, 0.5);
+  EXPECT_EQ(mean_of(lasting, 2.0), (Bins{2.0, 4.0, 6.0}));
+  core::ModeSet modes;
+  modes.add({.a = {0.5}, .drive = 3.0, .variance = 4.0, .share = 0.25});
+  lasting.keep(modes, 4.0);
+  const core::ModeSet kept = lasting.modes(2.0);
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept.modes()[0].drive, 6.0);
+  EXPECT_EQ(kept.modes()[0].variance, 8.0);
+  EXPECT_EQ(kept.modes()[0].share, 1.0) << "what is motion is for every window to say";
+}
+
+TEST(LastingSpectrum, StartsAnewWithOtherBins) {
+  LastingSpectrum lasting;
+  core::ModeSet modes;
+  modes.add({});
+  lasting.observe(Bins{1.0, 2.0, 3.0}, 1.0, 1.0, 0.5);
+  lasting.keep(modes, 1.0);
+  lasting.observe(std::vector{5.0, 6.0}, 1.0, 1.0, 0.5);
+  std::array<double, 2> mean{};
+  lasting.mean(1.0, mean);
+  EXPECT_EQ(mean, (std::array{5.0, 6.0}));
+  EXPECT_EQ(lasting.modes(1.0).size(), 0U);
+}
+
+TEST(LastingSpectrum, IsNotSpoiltForGood) {
+  LastingSpectrum lasting;
+  core::ModeSet modes;
+  modes.add({.drive = std::numeric_limits<double>::infinity()});
+  lasting.observe(Bins{1.0, std::numeric_limits<double>::max(), 3.0}, 2.0, 1.0, 0.5);
+  lasting.keep(modes, 1.0);
+  EXPECT_EQ(lasting.modes(1.0).size(), 0U);
+  lasting.observe(Bins{4.0, 5.0, 6.0}, 1.0, 1.0, 0.5);
+  EXPECT_EQ(mean_of(lasting), (Bins{4.0, 5.0, 6.0}));
+}
+
+TEST(LastingSpectrum, ForgetsAllButItsRoom) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
+  LastingSpectrum lasting;
+  lasting.make_room(3);
+  const auto before = testing::allocations();
+  lasting.observe(Bins{1.0, 2.0, 3.0}, 1.0, 1.0, 0.5);
+  lasting.forget();
+  lasting.observe(Bins{7.0, 8.0, 9.0}, 1.0, 1.0, 0.5);
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_EQ(mean_of(lasting), (Bins{7.0, 8.0, 9.0}));
+}
+
+// Three orders of an engine, each of a twentieth of the noise's power, beside a swing.
+TEST(LastingMember, FindsWhatOneWindowDoesNotShow) {
+  constexpr std::size_t kSize = 6000;
+  Signal truth = testing::times(testing::tone(kSize, 0.005), 2.0);
+  for (const double cycles : {0.18, 0.225, 0.31})
+    truth = testing::sum(truth, testing::tone(kSize, cycles), 0.3);
+  const Signal z = testing::sum(truth, testing::white_noise(kSize, 4));
+  const auto error = [&](const core::JointOptions& options) {
+    const auto out =
+        testing::run_joint(z, core::white_noise(1.0), 16, core::JointFit::kMinSamples, 0.5, options);
+    return testing::rms_difference(out.denoised, truth, 2500, kSize - 100);
+  };
+  core::JointOptions without;
+  without.lasting_log_prior = -100.0;
+  EXPECT_LT(error({}), 0.9 * error(without));
+}
+
+}  // namespace
+}  // namespace gyrod
