@@ -18,10 +18,7 @@ void scale(ModeSet& modes, double factor) noexcept {
 }  // namespace
 
 void LastingSpectrum::observe(std::span<const double> periodogram, double unit, double amount, double share) {
-  if (power_.size() != periodogram.size()) {
-    forget();
-    power_.assign(periodogram.size(), 0.0);
-  }
+  if (power_.size() != periodogram.size()) start_anew(periodogram.size());
   amount_ += amount;
   const double weight = std::min(1.0, amount * std::max(share, 1.0 / amount_));
   double sum = 0.0;
@@ -29,10 +26,12 @@ void LastingSpectrum::observe(std::span<const double> periodogram, double unit, 
     power_[k] += weight * (unit * periodogram[k] - power_[k]);
     sum += power_[k];
   }
-  if (std::isfinite(sum)) return;
-  std::ranges::fill(power_, 0.0);
-  amount_ = 0.0;
-  modes_.clear();
+  if (!std::isfinite(sum)) start_anew(periodogram.size());
+}
+
+void LastingSpectrum::start_anew(std::size_t bins) {
+  forget();
+  power_.assign(bins, 0.0);
 }
 
 void LastingSpectrum::mean(double unit, std::span<double> periodogram) const noexcept {

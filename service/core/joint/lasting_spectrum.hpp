@@ -38,6 +38,8 @@ class LastingSpectrum {
   void forget() noexcept;
 
  private:
+  void start_anew(std::size_t bins);
+
   std::vector<double> power_;
   double amount_ = 0.0;  ///< of all windows
   ModeSet modes_;

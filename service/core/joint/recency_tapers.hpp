@@ -27,7 +27,7 @@ class RecencyTapers {
   /// Length of the transform, a power of two.
   [[nodiscard]] std::size_t transform_samples() const noexcept { return transform_samples_; }
   /// Frequencies 2 pi k / transform_samples(), k = 0 .. transform_samples() / 2.
-  [[nodiscard]] std::size_t bins() const noexcept { return transform_samples_ / 2 + 1; }
+  [[nodiscard]] std::size_t bins() const noexcept { return bins(max_samples_); }
   /// bins() for windows of this length at the most.
   [[nodiscard]] static constexpr std::size_t bins(std::size_t max_samples) noexcept {
     return std::bit_ceil(max_samples) / 2 + 1;

@@ -65,6 +65,14 @@ inline double rms_difference(const Signal& a, const Signal& b, std::size_t begin
   return std::sqrt(squares / static_cast<double>(end - begin));
 }
 
+/// RMSE of the answers 16 samples late in white noise of variance 1, from sample `begin` on.
+inline double denoised_error(const Signal& truth, const Signal& noisy, std::size_t begin,
+                             const core::JointOptions& options) {
+  const JointOutput out =
+      run_joint(noisy, core::white_noise(1.0), 16, core::JointFit::kMinSamples, 0.5, options);
+  return rms_difference(out.denoised, truth, begin, truth.size() - 100);
+}
+
 /// A block whose roots are radius e^(+-i angle).
 inline core::FilterBlock oscillation(double radius, double angle, double drive, double signal = 1.0) {
   return {

@@ -110,9 +110,7 @@ TEST(LastingMember, FindsWhatOneWindowDoesNotShow) {
     truth = testing::sum(truth, testing::tone(kSize, cycles), 0.3);
   const Signal z = testing::sum(truth, testing::white_noise(kSize, 4));
   const auto error = [&](const core::JointOptions& options) {
-    const auto out =
-        testing::run_joint(z, core::white_noise(1.0), 16, core::JointFit::kMinSamples, 0.5, options);
-    return testing::rms_difference(out.denoised, truth, 2500, kSize - 100);
+    return testing::denoised_error(truth, z, 2500, options);
   };
   core::JointOptions without;
   without.lasting_log_prior = -100.0;

@@ -109,9 +109,7 @@ TEST(Resonances, GetTheirOwnModes) {
     truth = testing::sum(truth, testing::tone(kSize, cycles));
   const Signal z = testing::sum(truth, testing::white_noise(kSize, 4));
   const auto error = [&](const core::JointOptions& options) {
-    const auto out =
-        testing::run_joint(z, core::white_noise(1.0), 16, core::JointFit::kMinSamples, 0.5, options);
-    return testing::rms_difference(out.denoised, truth, 2000, kSize - 100);
+    return testing::denoised_error(truth, z, 2000, options);
   };
   // The lasting member finds them by itself.
   core::JointOptions with;
