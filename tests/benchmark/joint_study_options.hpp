@@ -44,9 +44,10 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("level_pole", options.level_pole);
   set("slope_pole", options.slope_pole);
   set("agile_drive", options.agile_drive);
-  set("drive_ratio", options.drive_ratio);
+  set("rough_drive", options.rough_drive);
+  set("still_drive", options.still_drive);
   set("agile_log_prior", options.agile_log_prior);
-  set("drive_log_prior", options.drive_log_prior);
+  set("rough_log_prior", options.rough_log_prior);
   set("hand_over_memory", options.hand_over_memory);
   set("still_log_prior", options.still_log_prior);
   set("lasting_windows", options.lasting_windows);

@@ -38,10 +38,8 @@ void JointFit::design(JointModel& model) noexcept {
   agile.order = 2;
   agile.a = {rho + d, -rho * d};
   make(with_agile(agile), MemberKind::kSlope, model);
-  make(blocks_of(full_, options_.drive_ratio), MemberKind::kRough, model);
-  const double less = 1.0 / options_.drive_ratio;
-  make(blocks_of(full_, less), MemberKind::kCalm, model);
-  make(blocks_of(full_, less * less), MemberKind::kStill, model);
+  make(blocks_of(full_, options_.rough_drive), MemberKind::kRough, model);
+  make(blocks_of(full_, options_.still_drive), MemberKind::kStill, model);
   if (!make(blocks_of(lasting_, 1.0), MemberKind::kLasting, model)) model.lasting.forget();
 }
 
@@ -58,11 +56,11 @@ bool JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
   return true;
 }
 
-/// The modes, all but the slow one and a tone driven drive_ratio times as hard, with their roots pulled in; and the noise's colour and lines.
-BlockSet JointFit::blocks_of(const ModeSet& modes, double drive_ratio) noexcept {
+/// The modes, all but the slow one and a tone driven so many times as hard, with their roots pulled in; and the noise's colour and lines.
+BlockSet JointFit::blocks_of(const ModeSet& modes, double times_drive) noexcept {
   BlockSet set;
   for (const SpectralMode& mode : modes.modes()) {
-    const double harder = mode.slow || mode.tone ? 1.0 : drive_ratio;
+    const double harder = mode.slow || mode.tone ? 1.0 : times_drive;
     FilterBlock block{.order = kModeOrder, .drive = mode.drive * harder, .signal = mode.share};
     if (mode.share > 0.0 && mode.share < 1.0)
       block.apart = mode.share * (1.0 - mode.share) * harder * whittle_.weigh(mode).power;

@@ -78,7 +78,7 @@ class JointFit {
   [[nodiscard]] double prior_of_full() noexcept;
   void design(JointModel& model) noexcept;
   bool make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
-  [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double drive_ratio) noexcept;
+  [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double times_drive) noexcept;
   [[nodiscard]] double left_out() noexcept;
   /// How much of a window is new since the last one.
   [[nodiscard]] double new_share() const noexcept {

@@ -20,13 +20,12 @@ enum class MemberKind : std::uint8_t {
   kLevel,    ///< the pruned ones and a nearly constant rate: a turn begins
   kSlope,    ///< the pruned ones and a nearly constant acceleration: a turn winds up
   kRough,    ///< all modes, driven harder: a bump
-  kCalm,     ///< all modes, driven less: smooth road
   kStill,    ///< all modes, hardly driven: little moves but what is slow
   kLasting,  ///< the modes of the last windows together
 };
-inline constexpr std::size_t kMembers = 8;
+inline constexpr std::size_t kMembers = 7;
 
-/// What the fast loop takes of it. A plain value of about 22 KB: copied, never shared.
+/// What the fast loop takes of it. A plain value of about 20 KB: copied, never shared.
 struct BankModel {
   double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
   double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared

@@ -91,13 +91,13 @@ struct JointOptions {
   double slope_pole = 0.97;
   /// Variance of what drives an agile member's extra block, in parts of the full member's innovation variance. Range 0..10.
   double agile_drive = 0.01;
-  /// The rough and the calm member: the full set with all modes but the slow one driven by this many times the variance, and by its
-  /// inverse; the still one by the square of its inverse. Range 1..1000.
-  double drive_ratio = 4.0;
-  /// Logarithm of the prior weight of an agile member, of the rough and the calm one, of the still and of the lasting one. Range -100..0.
+  /// The rough and the still member: the full set with all modes but the slow one driven by this many times the variance. Range 1..1000; 0.001..1.
+  double rough_drive = 4.0;
+  double still_drive = 0.1;
+  /// Logarithm of the prior weight of an agile member, of the rough, of the still and of the lasting one. Range -100..0.
   double agile_log_prior = -1.0;
-  double drive_log_prior = -1.0;
-  double still_log_prior = -0.5;
+  double rough_log_prior = -0.5;
+  double still_log_prior = 0.0;
   double lasting_log_prior = -0.5;
   /// Where pruning leaves nothing but the slow mode, the full set and the rough member weigh e^(g/2) of that a priori, g what twice the log-likelihood of
   /// the full set is beyond that of the pruned one and this: what the window's noise alone buys. Range 0..1e4.

@@ -98,13 +98,11 @@ void KalmanBank::use(const BankModel& model) noexcept {
 void KalmanBank::apply_options() noexcept {
   const double full = model_.full_prior;
   const double agile = portable_exp(options_.agile_log_prior);
-  const double drive = portable_exp(options_.drive_log_prior);
   prior_ = {full,
             1.0,
             agile,
             agile,
-            full * drive,
-            drive,
+            full * portable_exp(options_.rough_log_prior),
             portable_exp(options_.still_log_prior),
             portable_exp(options_.lasting_log_prior)};
   switching_rate_ = model_.scale.switching_rate(options_.switching_rate);

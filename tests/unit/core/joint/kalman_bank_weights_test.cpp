@@ -96,7 +96,7 @@ TEST(KalmanBank, WeighsTheFullSetAsTheModelHasIt) {
   model.full_prior = kPart;
   KalmanBank bank(bare(), 0);
   bank.use(model);
-  const double rough = std::exp(bare().drive_log_prior);
+  const double rough = std::exp(bare().rough_log_prior);
   const double expected = (kPart * 1.0 + 4.0 + kPart * rough * 9.0) / (kPart + 1.0 + kPart * rough);
   for (const double z : testing::white_noise(50, 3)) {
     EXPECT_NEAR(bank.step(z).realtime.variance, expected, 1e-12);
