@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/evaluation_report.hpp"
@@ -29,11 +30,14 @@ std::string padded(const std::string& text, int width) {
 std::string left(const std::string& text, int width) { return text + padded(text, width); }
 std::string right(const std::string& text, int width = kNumberWidth) { return padded(text, width) + text; }
 
+/// What rounds to nothing has no sign.
 std::string fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+  const std::string_view shown = text.data();
+  const bool nothing = shown.find_first_of("123456789") == std::string_view::npos;
+  return std::string(nothing && shown.starts_with('-') ? shown.substr(1) : shown);
 }
 /// 0.01, 3, 0.0936
 std::string short_number(double value) {

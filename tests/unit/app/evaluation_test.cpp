@@ -172,5 +172,19 @@ TEST(EvaluationText, GivesEachMethodsLimitWhereTheyDiffer) {
               ::testing::EndsWith(" 1.2"));
 }
 
+TEST(EvaluationText, GivesNothingNoSign) {
+  const app::EvaluationRows rows = swings(1);
+  const app::EvaluationOptions options = judged_in(1);
+  std::vector<app::JudgedRow> judged = app::evaluate(rows, options);
+  core::TurnResponse response;
+  response.half_delay_s = -0.0004;
+  response.time_95_s = 0.3;
+  response.overshoot = -0.0004;
+  response.peak_error_dps = 1.0;
+  judged.front().turns = {{"joint", "a turn", response}};
+  const std::string text = app::evaluation_text({rows, options, judged});
+  EXPECT_THAT(text.substr(text.find("a turn")), ::testing::ContainsRegex(" 0 +300 +0\\.0 +1\\.00"));
+}
+
 }  // namespace
 }  // namespace gyrod
