@@ -103,8 +103,8 @@ TEST_P(JointDrives, AreAheadOfTheButterworthTunedOnTheirTruth) {
   }
 }
 
-// Where z alone is judged, x and y are ahead by more (docs/measured.md). Not ahead: 09 z under 0.12 deg/s of imu1 z, whose line is an eighth from where it was
-// calibrated; z under 0.35 and 1.05 deg/s, where a window is short; and where the colour is unknown and the level wrong, for which the design allows 10 %.
+// Where z alone is judged, x and y are ahead by more (docs/measured.md). Not ahead: 09 z at 400 Hz, and the z axes under noise of imu2 y that is believed white
+// and too weak, for which the design allows 10 %.
 INSTANTIATE_TEST_SUITE_P(
     Settings, JointDrives,
     testing::Values(Setting{"imu1_x", noise_of(1, 'x', 0)},
@@ -113,18 +113,18 @@ INSTANTIATE_TEST_SUITE_P(
                     Setting{"imu2_y_from_200000", noise_of(2, 'y', 200'000)},
                     Setting{"imu4_x", noise_of(4, 'x', 0)}, Setting{"imu4_z", noise_of(4, 'z', 0)},
                     Setting{"imu4_z_from_200000_on_z", noise_of(4, 'z', 200'000), 1.0, 0.0, 120.0, 1024, "z"},
-                    Setting{"imu1_z", noise_of(1, 'z', 0), 1.01}, Setting{"imu2_z", noise_of(2, 'z', 0)},
-                    Setting{"level_20_percent_low", noise_of(1, 'x', 0), 1.01, 0.8},
-                    Setting{"level_20_percent_high_on_z", noise_of(1, 'x', 0), 1.02, 1.2, 120.0, 1024, "z"},
-                    Setting{"level_20_percent_low_of_imu4_x", noise_of(4, 'x', 0), 1.01, 0.8},
+                    Setting{"imu1_z", noise_of(1, 'z', 0)}, Setting{"imu2_z", noise_of(2, 'z', 0)},
+                    Setting{"level_20_percent_low", noise_of(1, 'x', 0), 1.0, 0.8},
+                    Setting{"level_20_percent_high_on_z", noise_of(1, 'x', 0), 1.0, 1.2, 120.0, 1024, "z"},
+                    Setting{"level_20_percent_low_of_imu4_x", noise_of(4, 'x', 0), 1.0, 0.8},
                     Setting{"level_20_percent_low_of_imu2_y", noise_of(2, 'y', 200'000), 1.02, 0.8, 120.0,
                             1024, "z"},
-                    Setting{"nothing_known", noise_of(1, 'x', 0), 1.02, kNothing},
-                    Setting{"nothing_known_of_imu4_x", noise_of(4, 'x', 0), 1.01, kNothing, 120.0, 1024, "z"},
+                    Setting{"nothing_known", noise_of(1, 'x', 0), 1.0, kNothing},
+                    Setting{"nothing_known_of_imu4_x", noise_of(4, 'x', 0), 1.0, kNothing, 120.0, 1024, "z"},
                     Setting{"at_50_Hz", noise_of(1, 'x', 0), 1.0, 0.0, 50.0},
                     Setting{"at_200_Hz_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 200.0, 1024, "z"},
                     Setting{"at_400_Hz_on_z", noise_of(1, 'x', 0), 1.01, 0.0, 400.0, 2048, "z"},
-                    Setting{"window_512_on_z", noise_of(1, 'x', 0), 1.02, 0.0, 120.0, 512, "z"},
+                    Setting{"window_512_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 512, "z"},
                     Setting{"window_2048_on_z", noise_of(1, 'x', 0), 1.0, 0.0, 120.0, 2048, "z"}),
     [](const auto& info) { return std::string(info.param.name); });
 

@@ -2,8 +2,12 @@
 #include "core/joint/lasting_spectrum.hpp"
 
 #include <array>
+#include <cmath>
+#include <complex>
 #include <cstddef>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -115,6 +119,44 @@ TEST(LastingMember, FindsWhatOneWindowDoesNotShow) {
   core::JointOptions without;
   without.lasting_log_prior = -100.0;
   EXPECT_LT(error({}), 0.9 * error(without));
+}
+
+/// Spectrum of the mode that is called slow at these frequencies, in cycles per sample; nothing where not exactly one is.
+std::optional<std::array<double, 2>> slow_spectrum(const core::ModeSet& modes, std::array<double, 2> cycles) {
+  std::optional<std::array<double, 2>> spectrum;
+  for (const core::SpectralMode& mode : modes.modes()) {
+    if (!mode.slow) continue;
+    if (spectrum) return std::nullopt;
+    spectrum.emplace();
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::complex<double> whitened = 1.0;
+      for (std::size_t k = 0; k < mode.a.size(); ++k)
+        whitened -=
+            mode.a[k] * std::polar(1.0, -2.0 * std::numbers::pi * cycles[i] * static_cast<double>(k + 1));
+      (*spectrum)[i] = mode.drive / std::norm(whitened);
+    }
+  }
+  return spectrum;
+}
+
+// A fit that goes on may make a tone of the mode that was called slow.
+TEST(LastingMember, CallsTheSlowestModeSlow) {
+  constexpr std::size_t kWindow = 1024;
+  constexpr std::array kCycles = {0.005, 0.2};
+  const Signal motion = testing::sum(testing::tone(kWindow, kCycles[0]), testing::tone(kWindow, kCycles[1]));
+  const Signal z = testing::sum(testing::times(motion, 3.0), testing::white_noise(kWindow, 4));
+  core::JointFit fit(kWindow);
+  core::JointModel model;
+  core::WindowReport report;
+  fit.fit(z, core::white_noise(1.0), model, report);
+  core::ModeSet swapped = model.lasting.modes(1.0);
+  ASSERT_GT(swapped.size(), 1U);
+  for (core::SpectralMode& mode : swapped.modes()) mode.slow = !mode.slow;
+  model.lasting.keep(swapped, 1.0);
+  fit.fit(z, core::white_noise(1.0), model, report);
+  const auto spectrum = slow_spectrum(model.lasting.modes(1.0), kCycles);
+  ASSERT_TRUE(spectrum);
+  EXPECT_GT((*spectrum)[0], 100.0 * (*spectrum)[1]);
 }
 
 }  // namespace
