@@ -25,7 +25,7 @@ enum class MemberKind : std::uint8_t {
 };
 inline constexpr std::size_t kMembers = 7;
 
-/// What the fast loop takes of it. A plain value of about 20 KB: copied, never shared.
+/// What the fast loop takes of it. A plain value of about 19 KB: copied, never shared.
 struct BankModel {
   double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
   double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared

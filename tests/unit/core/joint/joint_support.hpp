@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -71,6 +72,14 @@ inline double denoised_error(const Signal& truth, const Signal& noisy, std::size
   const JointOutput out =
       run_joint(noisy, core::white_noise(1.0), 16, core::JointFit::kMinSamples, 0.5, options);
   return rms_difference(out.denoised, truth, begin, truth.size() - 100);
+}
+
+/// Of a mode at w, in radians a sample.
+inline double spectrum_of(const core::SpectralMode& mode, double w) {
+  std::complex<double> a(1.0);
+  for (std::size_t i = 0; i < core::kModeOrder; ++i)
+    a -= mode.a[i] * std::polar(1.0, -w * static_cast<double>(i + 1));
+  return mode.drive / std::norm(a);
 }
 
 /// A block whose roots are radius e^(+-i angle).

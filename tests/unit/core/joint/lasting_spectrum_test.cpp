@@ -1,13 +1,11 @@
 // The mean spectrum of a channel's windows, and what a member that is fitted to it finds.
 #include "core/joint/lasting_spectrum.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <complex>
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -145,24 +143,6 @@ TEST(LastingMember, HasNoFaintModesInASignalBand) {
   EXPECT_EQ(lasting_modes(0.4, {}), lasting_modes(0.4, pays));
 }
 
-/// Spectrum of the mode that is called slow at these frequencies, in cycles per sample; nothing where not exactly one is.
-std::optional<std::array<double, 2>> slow_spectrum(const core::ModeSet& modes, std::array<double, 2> cycles) {
-  std::optional<std::array<double, 2>> spectrum;
-  for (const core::SpectralMode& mode : modes.modes()) {
-    if (!mode.slow) continue;
-    if (spectrum) return std::nullopt;
-    spectrum.emplace();
-    for (std::size_t i = 0; i < 2; ++i) {
-      std::complex<double> whitened = 1.0;
-      for (std::size_t k = 0; k < mode.a.size(); ++k)
-        whitened -=
-            mode.a[k] * std::polar(1.0, -2.0 * std::numbers::pi * cycles[i] * static_cast<double>(k + 1));
-      (*spectrum)[i] = mode.drive / std::norm(whitened);
-    }
-  }
-  return spectrum;
-}
-
 // A fit that goes on may make a tone of the mode that was called slow.
 TEST(LastingMember, CallsTheSlowestModeSlow) {
   constexpr std::size_t kWindow = 1024;
@@ -178,9 +158,13 @@ TEST(LastingMember, CallsTheSlowestModeSlow) {
   for (core::SpectralMode& mode : swapped.modes()) mode.slow = !mode.slow;
   model.lasting.keep(swapped, 1.0);
   fit.fit(z, core::white_noise(1.0), model, report);
-  const auto spectrum = slow_spectrum(model.lasting.modes(1.0), kCycles);
-  ASSERT_TRUE(spectrum);
-  EXPECT_GT((*spectrum)[0], 100.0 * (*spectrum)[1]);
+  const core::ModeSet after = model.lasting.modes(1.0);
+  ASSERT_EQ(std::ranges::count_if(after.modes(), &core::SpectralMode::slow), 1);
+  const core::SpectralMode& slow = *std::ranges::find_if(after.modes(), &core::SpectralMode::slow);
+  const auto at = [&slow](double cycles) {
+    return testing::spectrum_of(slow, 2.0 * std::numbers::pi * cycles);
+  };
+  EXPECT_GT(at(kCycles[0]), 100.0 * at(kCycles[1]));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <random>
 
@@ -10,24 +9,19 @@
 
 #include "support/allocation_counter.hpp"
 #include "support/signals.hpp"
+#include "unit/core/joint/joint_support.hpp"
 
 namespace gyrod::core {
 namespace {
 
 using testing::Signal;
+using testing::spectrum_of;
 
 constexpr std::size_t kTransform = 1024;
 constexpr std::size_t kBins = kTransform / 2 + 1;
 
 double radians(std::size_t bin) {
   return std::numbers::pi * static_cast<double>(bin) / static_cast<double>(kBins - 1);
-}
-
-double spectrum_of(const SpectralMode& mode, double w) {
-  std::complex<double> a(1.0);
-  for (std::size_t i = 0; i < kModeOrder; ++i)
-    a -= mode.a[i] * std::polar(1.0, -w * static_cast<double>(i + 1));
-  return mode.drive / std::norm(a);
 }
 
 SpectralMode oscillation(double radius, double angle, double drive) {
