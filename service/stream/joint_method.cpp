@@ -102,7 +102,8 @@ class JointMethod final : public ModelMethod {
 
 class JointFilter final : public SampleFilter {
  public:
-  JointFilter(const core::JointOptions& options, std::size_t lag_samples) : bank_(options, lag_samples) {}
+  JointFilter(const core::JointOptions& options, std::size_t lag_samples, core::SignalBandLimit band)
+      : bank_(options, lag_samples, band) {}
 
   void expect_noise(const core::NoiseModel& noise) noexcept override {
     bank_.expect_noise(core::is_usable(noise) ? core::noise_variance(noise) : 0.0);
@@ -203,16 +204,19 @@ class JointFilter final : public SampleFilter {
 }  // namespace
 
 ModelMethodFactory joint_method(const core::JointOptions& options, double max_signal_hz) {
-  return {
-      .method =
-          [options, max_signal_hz](std::size_t window_samples, std::size_t hop_samples) {
-            core::JointOptions own = options;
-            own.hop_samples = hop_samples;
-            return std::make_unique<JointMethod>(window_samples, own, max_signal_hz);
-          },
-      .model = [](std::size_t window_samples) { return std::make_unique<JointState>(window_samples); },
-      .filter =
-          [options](std::size_t lag_samples) { return std::make_unique<JointFilter>(options, lag_samples); }};
+  return {.method =
+              [options, max_signal_hz](std::size_t window_samples, std::size_t hop_samples) {
+                core::JointOptions own = options;
+                own.hop_samples = hop_samples;
+                return std::make_unique<JointMethod>(window_samples, own, max_signal_hz);
+              },
+          .model = [](std::size_t window_samples) { return std::make_unique<JointState>(window_samples); },
+          .filter =
+              [options, max_signal_hz](std::size_t lag_samples) {
+                return std::make_unique<JointFilter>(
+                    options, lag_samples,
+                    max_signal_hz > 0.0 ? core::SignalBandLimit::kPossible : core::SignalBandLimit::kNone);
+              }};
 }
 
 }  // namespace gyrod::stream

@@ -29,6 +29,7 @@ using core::KalmanBank;
 using core::NoiseModel;
 
 constexpr std::size_t kWindow = 1024;
+constexpr double kBandCycles = 0.05;
 /// Fresh windows, as the branch predictor learns a repeated one.
 constexpr std::size_t kWindows = 64;
 
@@ -72,8 +73,10 @@ NoiseModel noise(Colour colour) {
   return model;
 }
 
-JointModel fitted(std::size_t index, Colour colour) {
+/// @param max_signal_cycles limit of the signal band, cycles a sample; one half: none
+JointModel fitted(std::size_t index, Colour colour, double max_signal_cycles = 0.5) {
   static JointFit fit(kWindow);
+  fit.set_max_signal(max_signal_cycles);
   JointModel model;
   core::WindowReport report;
   fit.fit(window(index), noise(colour), model, report);
@@ -99,19 +102,36 @@ BENCHMARK(step)
     ->ArgsProduct({{7}, {0, 16, 32}, {2, 3}})
     ->Unit(benchmark::kNanosecond);
 
+/// Within a signal band of 5 Hz at 100 Hz. Argument: lag.
+void step_in_band(benchmark::State& state) {
+  const JointModel model = fitted(0, Colour::kAr8, kBandCycles);
+  KalmanBank bank({}, static_cast<std::size_t>(state.range(0)), core::SignalBandLimit::kPossible);
+  bank.use(model);
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(bank.step(drive()[next]));
+    next = (next + 1) % drive().size();
+  }
+}
+BENCHMARK(step_in_band)->Arg(0)->Arg(16)->Arg(32)->Unit(benchmark::kNanosecond);
+
+/// Argument: whether within that band.
 void hand_over(benchmark::State& state) {
-  const JointModel model = fitted(0, Colour::kAr8);
-  KalmanBank bank({}, 16);
+  const bool limited = state.range(0) != 0;
+  const JointModel model = fitted(0, Colour::kAr8, limited ? kBandCycles : 0.5);
+  KalmanBank bank({}, 16, limited ? core::SignalBandLimit::kPossible : core::SignalBandLimit::kNone);
   for (std::size_t t = 0; t < kWindow; ++t) bank.step(drive()[t]);
   for ([[maybe_unused]] auto _ : state) bank.use(model);
 }
-BENCHMARK(hand_over)->Unit(benchmark::kMicrosecond);
+BENCHMARK(hand_over)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
-/// The slow loop: one window of one axis. Arguments: the noise's colour, as Colour has it; doublings of the window, as fast sensors have them.
+/// The slow loop: one window of one axis. Arguments: the noise's colour, as Colour has it; doublings of the window, as fast sensors have them; whether
+/// within that band.
 void fit_window(benchmark::State& state) {
   const NoiseModel colours = noise(static_cast<Colour>(state.range(0)));
   const std::size_t samples = kWindow << state.range(1);
   JointFit fit(samples);
+  if (state.range(2) != 0) fit.set_max_signal(kBandCycles);
   JointModel model;
   core::WindowReport report;
   std::size_t from = 0;
@@ -124,8 +144,9 @@ void fit_window(benchmark::State& state) {
       static_cast<double>(state.iterations()) / kHopsPerSecond, benchmark::Counter::kIsRate);
 }
 BENCHMARK(fit_window)
-    ->ArgsProduct({{0, 1, 2, 3}, {0}})
-    ->ArgsProduct({{1}, {1, 2}})
+    ->ArgsProduct({{0, 1, 2, 3}, {0}, {0}})
+    ->ArgsProduct({{1}, {1, 2}, {0}})
+    ->ArgsProduct({{1}, {0}, {1}})
     ->Unit(benchmark::kMicrosecond);
 
 /// Room for windows of a length, which the first sensor that needs them makes for every worker. Argument: doublings of the window.

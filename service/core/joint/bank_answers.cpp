@@ -22,13 +22,23 @@ constexpr double kMostOwn = 0.25;
 /// Of x[t - lag], t the newest sample, without the slow correction; from kMaxLag samples after it at the most.
 BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
   if (!fitted_) return start_.estimate(lag);
+  if (!limited() || count_ <= kMaxLag)
+    return mixture(lag, [&](std::size_t member) { return signal_estimate(member, lag); });
+  BankEstimate answer = mixture(lag, [&](std::size_t member) { return band_estimate(member, lag); });
+  answer.rate += band_->settled_part(lag);
+  return answer;
+}
+
+/// @param answer of a member
+template <class Answer>
+BankEstimate KalmanBank::mixture(std::size_t lag, const Answer& answer) const noexcept {
   std::array<double, kMembers> estimates{};
   BankEstimate mixture;
   // Differences to it are weighed: where all agree, that is the answer to the last bit.
   std::optional<double> first;
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (weight_at(i, lag) == 0.0) continue;
-    estimates[i] = member_estimate(i, lag);
+    estimates[i] = answer(i);
     if (!first) first = estimates[i];
     mixture.rate += weight_at(i, lag) * (estimates[i] - *first);
   }
@@ -43,13 +53,37 @@ BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
   return mixture;
 }
 
-double KalmanBank::member_estimate(std::size_t index, std::size_t lag) const noexcept {
+double KalmanBank::signal_estimate(std::size_t index, std::size_t lag) const noexcept {
   const Member& member = members_[index];
   const auto& g = model_.members[index].smoothing;
   const std::uint64_t then = count_ - 1 - lag;
   double estimate = model_.mean + member.prediction[then % kRing];
   for (std::size_t k = 0; k <= std::min(lag, kMaxLag); ++k)
     estimate += g[k] * member.innovation[(then + k) % kRing];
+  return estimate;
+}
+
+/// What a signal band asks of the newest sample.
+void KalmanBank::settle() noexcept {
+  if (!band_ || count_ <= kMaxLag) return;
+  const BankEstimate settled =
+      fitted_ ? mixture(kMaxLag, [&](std::size_t member) { return signal_estimate(member, kMaxLag); })
+              : start_.estimate(kMaxLag);
+  band_->settle(settled.rate);
+}
+
+double KalmanBank::band_estimate(std::size_t index, std::size_t lag) const noexcept {
+  const Member& member = members_[index];
+  BandAnswers::Row made;
+  const BandAnswers::Row& row = band_->row(model_, index, lag, made);
+  double estimate = model_.mean * band_->share_of_members(lag);
+  for (std::size_t age = 0; age <= kMaxLag; ++age) {
+    const std::uint64_t then = count_ - 1 - age;
+    const double tap = band_->band().tap(static_cast<std::ptrdiff_t>(lag) - static_cast<std::ptrdiff_t>(age));
+    estimate +=
+        tap * member.prediction[then % kRing] + row.innovations[age] * member.innovation[then % kRing];
+  }
+  for (std::size_t i = 0; i < model_.members[index].states; ++i) estimate += row.states[i] * member.x[i];
   return estimate;
 }
 

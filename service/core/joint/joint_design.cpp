@@ -22,11 +22,11 @@ FilterBlock colour_block(const NoiseModel& noise) noexcept {
 
 void JointFit::design(JointModel& model) noexcept {
   model.noise_variance = seen_noise();
-  const bool band = max_signal_cycles_ < 0.5;
-  const double left_out_variance = unit_ * left_out();
-  model.beyond_band_variance = band ? left_out_variance : 0.0;
-  model.residual_variance = model.noise_variance + left_out_variance;
-  if (band) model.residual_variance = std::numeric_limits<double>::infinity();
+  model.band_cycles = designer_.band_cycles();
+  const bool band = model.band_cycles < 0.5;
+  model.beyond_band_variance = band ? unit_ * beyond_band() : 0.0;
+  model.residual_variance =
+      band ? std::numeric_limits<double>::infinity() : model.noise_variance + unit_ * left_out();
   make(blocks_of(full_, 1.0), MemberKind::kFull, model);
   make(blocks_of(pruned_, 1.0), MemberKind::kPruned, model);
   const double drive =
@@ -53,6 +53,7 @@ bool JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
   member.innovation_variance *= unit_;
   member.prediction_variance *= unit_;
   member.white_variance *= unit_;
+  member.band_variance *= unit_;
   return true;
 }
 
@@ -77,18 +78,14 @@ BlockSet JointFit::blocks_of(const ModeSet& modes, double times_drive) noexcept 
   return set;
 }
 
-/// What lies above the signal band is no motion, nor is what the noise's own lines have left in modes beside them.
+/// What the noise's own lines have left in modes beside them is no motion.
 void JointFit::share_out(ModeSet& modes) noexcept {
-  if (max_signal_cycles_ >= 0.5 && line_count_ == 0) return;
+  if (line_count_ == 0) return;
   std::array<std::array<ModeNearLine, kMaxModes>, kMaxNoiseLines> candidates{};
   std::array<std::size_t, kMaxNoiseLines> counts{};
   for (SpectralMode& mode : modes.modes()) {
     if (mode.slow) continue;
     const auto [centre_cycles, power] = whittle_.weigh(mode);
-    if (centre_cycles > max_signal_cycles_) {
-      mode.share = 0.0;
-      continue;
-    }
     for (std::size_t i = 0; power > 0.0 && i < line_count_; ++i) {
       if (!lines_[i].reaches(centre_cycles, options_.line)) continue;
       candidates[i][counts[i]++] = {&mode, power};
@@ -105,6 +102,14 @@ double JointFit::left_out() noexcept {
   for (const SpectralMode& mode : full_.modes()) {
     if (mode.share < 1.0) sum += (1.0 - mode.share) * whittle_.weigh(mode).power;
   }
+  return sum;
+}
+
+/// Variance of what the full set has beyond the signal band or leaves out.
+double JointFit::beyond_band() noexcept {
+  double sum = left_out();
+  for (const SpectralMode& mode : full_.modes())
+    sum += mode.share * whittle_.power_from(mode, designer_.band_cycles());
   return sum;
 }
 

@@ -186,7 +186,8 @@ void JointFit::describe(std::span<const double> imf, WindowReport& report) const
   const double floor = line_count_ > 0 ? std::sqrt(unit_ * noise_variance(noise_)) : report.noise_floor;
   figures.excess = figures.energy / (floor * floor * noise_line_energy(index));
   // The slow mode is never left out: what is slow and beyond the signal band needs a mode of its own.
-  if (figures.mean_period_samples > std::max(options_.slow_period_samples, 1.0 / max_signal_cycles_)) return;
+  if (figures.mean_period_samples > std::max(options_.slow_period_samples, 1.0 / designer_.band_cycles()))
+    return;
   report.k = index;
   figures.imf_class = figures.excess < options_.least_excess ? ImfClass::kNoise : ImfClass::kMixed;
   if (figures.imf_class == ImfClass::kNoise && report.j + 1 == index) report.j = index;

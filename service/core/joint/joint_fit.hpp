@@ -36,9 +36,9 @@ class JointFit {
   /// @throws std::invalid_argument for more IMFs than a report holds
   explicit JointFit(std::size_t max_samples, const JointOptions& options = {});
 
-  /// From here on modes whose power lies above this frequency, cycles per sample, count as noise: they are part of what the filter
-  /// expects, and not of what it answers. One half or more (as at the start): all are signal.
-  void set_max_signal(double cycles) noexcept { max_signal_cycles_ = cycles; }
+  /// From here on motion above this frequency, cycles per sample, counts as noise: it is part of what the filter expects, and not of what it
+  /// answers (BandAnswers). One half or more (as at the start): all is signal.
+  void set_max_signal(double cycles) noexcept { designer_.set_band(cycles); }
 
   /// From here on windows are sampled at this rate, Hz; 0 (as at the start) while unknown. Options become what JointScale makes of them.
   void set_sample_rate(double sample_rate_hz) noexcept;
@@ -80,6 +80,7 @@ class JointFit {
   bool make(const BlockSet& blocks, MemberKind kind, JointModel& model) noexcept;
   [[nodiscard]] BlockSet blocks_of(const ModeSet& modes, double times_drive) noexcept;
   [[nodiscard]] double left_out() noexcept;
+  [[nodiscard]] double beyond_band() noexcept;
   /// How much of a window is new since the last one.
   [[nodiscard]] double new_share() const noexcept {
     return static_cast<double>(options_.hop_samples) / static_cast<double>(max_samples_);
@@ -115,7 +116,6 @@ class JointFit {
   double unit_ = 1.0;                              ///< variance of the noise
   double most_noise_ = std::numeric_limits<double>::infinity();
   BandPower own_ = kAllOwn;
-  double max_signal_cycles_ = 1.0;
   ModeSet full_;
   ModeSet pruned_;
   ModeSet lasting_;

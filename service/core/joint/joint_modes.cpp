@@ -103,9 +103,7 @@ void JointFit::fit_lasting(LastingSpectrum& lasting) noexcept {
   whittle_.observe(pruned_periodogram_);
   whittle_.iterate(lasting_, options_.lasting_iterations);
   find_resonances(lasting_, options_.lasting_resonance_gain);
-  // Faint modes beside the edge of a signal band let through what lies beyond it.
-  const bool band = max_signal_cycles_ < 0.5;
-  whittle_.prune(lasting_, band ? options_.prune_gain : options_.lasting_prune_gain);
+  whittle_.prune(lasting_, options_.lasting_prune_gain);
   whittle_.iterate(lasting_, options_.lasting_final_iterations);
   name_slow_mode(lasting_);
   if (centred_.size() == max_samples_) lasting.keep(lasting_, unit_);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/joint/companion_blocks.hpp"
 #include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
@@ -15,28 +16,17 @@ bool has_member(const BankModel& model) noexcept {
   return std::ranges::any_of(model.members, &MemberModel::usable);
 }
 
-/// The next x of a process without its noise, a_1 x[0] + ... + a_p x[p-1], which comes first in its state.
-double advance(const std::array<double, kMaxNoiseColour>& a, double* x, std::size_t order) noexcept {
-  double head = 0.0;
-  double newer = 0.0;
-  for (std::size_t i = 0; i < order; ++i) {
-    const double older = x[i];
-    head += a[i] * older;
-    x[i] = newer;
-    newer = older;
-  }
-  x[0] = head;
-  return head;
-}
-
 }  // namespace
 
-KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag)
+KalmanBank::KalmanBank(const JointOptions& options, std::size_t lag, SignalBandLimit band)
     : options_(options),
       lag_(lag),
       later_lag_(std::max(lag, kLeastLater)),
       hindsight_roots_(roots_at(lag)),
-      history_(std::max(options.hand_over_samples, kRing)) {
+      history_(std::max(options.hand_over_samples, kRing)),
+      band_(band == SignalBandLimit::kPossible
+                ? std::make_unique<BandAnswers>(std::array{std::size_t{0}, lag_, later_lag_})
+                : nullptr) {
   assert(lag <= kMaxLag && options.hand_over_samples <= kMaxHandOver);
   reset();
 }
@@ -57,6 +47,7 @@ void KalmanBank::reset() noexcept {
   at_once_ = {};
   resized_ = 0.0;
   normalised_innovation_ = 1.0;
+  if (band_) band_->forget();
 }
 
 void KalmanBank::use(const BankModel& model) noexcept {
@@ -67,6 +58,7 @@ void KalmanBank::use(const BankModel& model) noexcept {
   const bool compares = later_lag_ != lag_ && count_ > later_lag_;
   const double later = compares ? combine(later_lag_).rate : 0.0;
   model_ = model;
+  if (band_) band_->use(model_);
   apply_options();
   unit_ = 1.0;
   if (!fitted_) {
@@ -77,9 +69,7 @@ void KalmanBank::use(const BankModel& model) noexcept {
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (!model_.members[i].usable) continue;
     members_[i].x = {};
-    for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
-      error_variance_[i][lag] = model_.members[i].error_variance(lag);
-    }
+    expect_error(i);
     expect_hindsight(i);
     for (std::uint64_t time = begin; time < count_; ++time) predict_and_update(i, sample_at(time), time);
     if (count_ > begin && !std::isfinite(members_[i].innovation[(count_ - 1) % kRing])) {
@@ -92,6 +82,15 @@ void KalmanBank::use(const BankModel& model) noexcept {
   realtime_correction_.step += realtime - combine(0).rate;
   denoised_correction_.step += denoised - combine(lag_).rate;
   if (compares) later_correction_.step += later - combine(later_lag_).rate;
+}
+
+void KalmanBank::expect_error(std::size_t index) noexcept {
+  const MemberModel& member = model_.members[index];
+  if (limited()) {
+    error_variance_[index] = band_->error_variances(member);
+    return;
+  }
+  for (std::size_t lag = 0; lag <= kMaxLag; ++lag) error_variance_[index][lag] = member.error_variance(lag);
 }
 
 /// What the model makes of the options: its rate, its window, and what that spoke for.
@@ -117,6 +116,7 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   } else if (!follow(sample)) {
     return start_anew(sample);
   }
+  settle();
   slow_motion_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
   BankEstimates answer;
   answer.realtime = combine(0);

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "core/joint/band_answers.hpp"
 #include "core/joint/bank_estimate.hpp"
 #include "core/joint/gain_correction.hpp"
 #include "core/joint/joint_model.hpp"
@@ -24,6 +26,9 @@ struct BankEstimates {
   BankEstimate denoised;  ///< x[t-lag] given z[..t]; before sample number `lag` as realtime
 };
 
+/// Whether models may have a limit of the signal band: a bank then has room for that.
+enum class SignalBandLimit : bool { kNone, kPossible };
+
 /// Every member, per sample:
 ///   x <- A x,   s = C' x,   nu = (z - mean) - H' x,   x <- x + K nu,   w <- ((1 - a) w + a p) N(nu; 0, S)^power / sum,
 /// with a the switching rate, p the prior weights (of the full set and the rough member as JointModel::full_prior has it), and the exponential in
@@ -36,6 +41,7 @@ struct BankEstimates {
 /// (residual_check.hpp), and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed. What the answer
 /// lacks in size is added (gain_correction.hpp); answers at once learn that from later ones, of kLeastLater samples' look-ahead or lag
 /// (later_gain.hpp).
+/// Within a signal band the answer is the low-passed signal (band_answers.hpp).
 /// Before the first model, local levels answer (start_levels.hpp).
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -45,7 +51,8 @@ struct BankEstimates {
 class KalmanBank {
  public:
   /// @param lag 0..kMaxLag
-  KalmanBank(const JointOptions& options, std::size_t lag);
+  /// @param band where it is kNone the limit of a model is passed over
+  KalmanBank(const JointOptions& options, std::size_t lag, SignalBandLimit band = SignalBandLimit::kNone);
 
   /// Takes over a model (copied) from the next sample on: its members run over the last hand_over_samples first, and inherit the
   /// weights. A model that is not usable is ignored.
@@ -121,7 +128,13 @@ class KalmanBank {
   [[nodiscard]] double weight_at(std::size_t index, std::size_t lag) const noexcept {
     return lag == 0 ? members_[index].weight : members_[index].late;
   }
-  [[nodiscard]] double member_estimate(std::size_t index, std::size_t lag) const noexcept;
+  template <class Answer>
+  [[nodiscard]] BankEstimate mixture(std::size_t lag, const Answer& answer) const noexcept;
+  void settle() noexcept;
+  [[nodiscard]] double signal_estimate(std::size_t index, std::size_t lag) const noexcept;
+  [[nodiscard]] double band_estimate(std::size_t index, std::size_t lag) const noexcept;
+  [[nodiscard]] bool limited() const noexcept { return band_ && band_->band().limits(); }
+  void expect_error(std::size_t index) noexcept;
   [[nodiscard]] double sample_at(std::uint64_t time) const noexcept {
     return history_[time % history_.size()];
   }
@@ -139,6 +152,7 @@ class KalmanBank {
   double unit_ = 1.0;               ///< variances of the model in use are in parts of this
   std::uint64_t count_ = 0;         ///< samples taken
   std::vector<double> history_;
+  std::unique_ptr<BandAnswers> band_;
   std::array<Member, kMembers> members_{};
   std::array<double, kMembers> prior_{};
   double prior_sum_ = 1.0;  ///< of the members that are usable

@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/joint/band_design.hpp"
 #include "core/joint/block_riccati.hpp"
+#include "core/joint/companion_blocks.hpp"
 
 namespace gyrod::core {
 
@@ -46,9 +48,12 @@ class MemberDesigner::Workspace {
     }
     member.white_variance = r;
     smooth(member);
+    band.describe(signal_covariance_, member);
     member.usable = true;
     return true;
   }
+
+  BandDesign band;
 
  private:
   /// X C.
@@ -86,23 +91,6 @@ class MemberDesigner::Workspace {
     }
   }
 
-  static void step_back(const MemberModel& member, std::array<double, kMaxStates>& h) noexcept {
-    double* block_h = h.data();
-    for (const FilterBlock& block : member.blocks.all()) {
-      const double head = block_h[0];
-      for (std::size_t i = 0; i + 1 < block.order; ++i) block_h[i] = block.a[i] * head + block_h[i + 1];
-      block_h[block.order - 1] = block.a[block.order - 1] * head;
-      block_h += block.order;
-    }
-    double correction = 0.0;
-    for (std::size_t i = 0; i < member.states; ++i) correction += member.gain[i] * h[i];
-    std::size_t head = 0;
-    for (const FilterBlock& block : member.blocks.all()) {
-      h[head] -= correction;
-      head += block.order;
-    }
-  }
-
   BlockRiccati riccati_;
   std::array<double, kMaxStates> signal_covariance_{};
 };
@@ -111,6 +99,10 @@ MemberDesigner::MemberDesigner() : workspace_(std::make_unique<Workspace>()) {}
 MemberDesigner::~MemberDesigner() = default;
 MemberDesigner::MemberDesigner(MemberDesigner&&) noexcept = default;
 MemberDesigner& MemberDesigner::operator=(MemberDesigner&&) noexcept = default;
+
+void MemberDesigner::set_band(double cycles) noexcept { workspace_->band.set(cycles); }
+
+double MemberDesigner::band_cycles() const noexcept { return workspace_->band.band().cycles(); }
 
 bool MemberDesigner::design(const BlockSet& blocks, double noise_variance, MemberModel& member) noexcept {
   assert(noise_variance > 0.0);

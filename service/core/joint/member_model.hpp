@@ -51,6 +51,10 @@ struct MemberModel {
   /// The same of all that is not white, signal or not: H' X (F')^k H / S.
   std::array<double, kMaxLag + 1> whole_smoothing{};
   double white_variance = 0.0;  ///< r, unit^2
+  /// Within a signal band (core/joint/band_design.hpp): what the states tell of samples beyond kMaxLag ahead, and the variance of what is not known
+  /// with that look-ahead, unit^2. 0 where there is none.
+  std::array<double, kMaxStates> ahead{};
+  double band_variance = 0.0;
   bool usable = false;
 
   /// Variance of the estimate's error at this lag, C' X C - S sum_{k <= lag} g_k^2, unit^2. @pre lag <= kMaxLag
@@ -67,6 +71,11 @@ class MemberDesigner {
   ~MemberDesigner();
   MemberDesigner(MemberDesigner&&) noexcept;
   MemberDesigner& operator=(MemberDesigner&&) noexcept;
+
+  /// From here on members have what answers within this band ask for. @param cycles as SignalBand::set()
+  void set_band(double cycles) noexcept;
+  /// The limit as it was taken, cycles per sample.
+  [[nodiscard]] double band_cycles() const noexcept;
 
   /// Solves for the steady state (core/joint/block_riccati.hpp); the same bits on every processor.
   /// @param noise_variance r > 0, unit^2

@@ -18,7 +18,7 @@ struct SpectralMode {
   bool slow = false;  ///< stands for all that is slower than T_slow
   /// Stands for a narrow tone: its drive says how fast it changes, which no member doubts.
   bool tone = false;
-  /// How much of its variance is motion, 0..1; the rest is a line of the noise, or above the signal band.
+  /// How much of its variance is motion, 0..1; the rest is a line of the noise.
   double share = 1.0;
 };
 

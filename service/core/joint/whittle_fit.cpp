@@ -186,10 +186,15 @@ WhittleFit::Band WhittleFit::least_explained(const ModeSet& modes) noexcept {
   return least;
 }
 
-WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
-  const auto spectrum = row(0);
+/// S at every bin; in place of the first row of spectra_ and of sum_.
+std::span<const double> WhittleFit::spectrum_of(const SpectralMode& mode) noexcept {
   std::ranges::fill(sum_, 0.0);
-  kernel_->add_spectrum(bins_, mode, cosines_.data(), sines_.data(), spectrum.data(), sum_.data());
+  kernel_->add_spectrum(bins_, mode, cosines_.data(), sines_.data(), row(0).data(), sum_.data());
+  return row(0);
+}
+
+WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
+  const auto spectrum = spectrum_of(mode);
   double power = 0.0;
   double moment = 0.0;
   for (std::size_t k = 0; k < bins_; ++k) {
@@ -198,6 +203,15 @@ WhittleFit::Weight WhittleFit::weigh(const SpectralMode& mode) noexcept {
   }
   return {.centre_cycles = power > 0.0 ? 0.5 * moment / power / static_cast<double>(bins_ - 1) : 0.0,
           .power = power / static_cast<double>(bins_)};
+}
+
+double WhittleFit::power_from(const SpectralMode& mode, double cycles) noexcept {
+  const auto spectrum = spectrum_of(mode);
+  double power = 0.0;
+  for (std::size_t k = 0; k < bins_; ++k) {
+    if (0.5 * static_cast<double>(k) > cycles * static_cast<double>(bins_ - 1)) power += spectrum[k];
+  }
+  return power / static_cast<double>(bins_);
 }
 
 SpectralMode WhittleFit::mode_of(std::span<const double> autocovariance, bool slow) const noexcept {

@@ -77,12 +77,15 @@ class WhittleFit {
     double power = 0.0;  ///< its variance, in the periodogram's unit
   };
   [[nodiscard]] Weight weigh(const SpectralMode& mode) noexcept;
+  /// The mode's variance above this frequency, cycles per sample, in the periodogram's unit.
+  [[nodiscard]] double power_from(const SpectralMode& mode, double cycles) noexcept;
 
   /// The mode whose autocovariances r_0 .. r_kModeOrder are given.
   [[nodiscard]] SpectralMode mode_of(std::span<const double> autocovariance, bool slow) const noexcept;
 
  private:
   void sum_noise(const NoiseModel& noise) noexcept;
+  [[nodiscard]] std::span<const double> spectrum_of(const SpectralMode& mode) noexcept;
   void sum_spectra(const ModeSet& modes) noexcept;
   void bound_slowest_bin(const ModeSet& modes) noexcept;
   void sum_up_missing(std::span<double> power) noexcept;

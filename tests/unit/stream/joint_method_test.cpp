@@ -105,7 +105,7 @@ TEST(JointMethod, IsTheFitAndTheBankWithTheSignalBandInCyclesPerSample) {
     Axis axis(40.0);
     axis.fit(joint_window(1), rate_hz);
     core::JointFit fit(kJointWindow);
-    core::KalmanBank bank({}, kJointLag);
+    core::KalmanBank bank({}, kJointLag, core::SignalBandLimit::kPossible);
     core::JointModel model;
     core::WindowReport report;
     fit.set_sample_rate(rate_hz);

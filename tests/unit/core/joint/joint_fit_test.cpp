@@ -95,18 +95,20 @@ TEST(JointFit, KnowsWhatResidualsMayBe) {
   EXPECT_GT(model.residual_variance, 1.05 * model.noise_variance);
 }
 
-// The tone is the only thing there, and above the band.
-TEST(JointFit, AboveTheSignalBandNothingIsSignal) {
+// The tone is the only thing there.
+TEST(JointFit, KnowsHowMuchLiesBeyondTheSignalBand) {
   const Signal z = testing::sum(testing::white_noise(kWindow, 3), testing::tone(kWindow, 0.2), 2.0);
-  const auto signal_variance = [&z](double max_signal_cycles) {
+  const auto beyond = [&z](double max_signal_cycles) {
     JointModel model;
     WindowReport report;
     JointFit fit(kWindow);
     fit.set_max_signal(max_signal_cycles);
     fit.fit(z, core::white_noise(1.0), model, report);
-    return model.member(core::MemberKind::kFull).prediction_variance;
+    return model.beyond_band_variance;
   };
-  EXPECT_LT(signal_variance(0.1), 0.1 * signal_variance(0.3));
+  EXPECT_NEAR(beyond(0.1), 2.0, 0.2) << "half the square of its amplitude";
+  EXPECT_LT(beyond(0.3), 0.1);
+  EXPECT_EQ(beyond(0.5), 0.0);
 }
 
 // Thirty times the noise, and all of it unwanted. The corrections give back what estimates leave out: they took a twelfth of the tone for that.

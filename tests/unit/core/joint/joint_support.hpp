@@ -32,7 +32,7 @@ inline JointOutput run_joint(const Signal& z, const core::NoiseModel& noise, std
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   core::JointFit fit(kWindow, options);
   fit.set_max_signal(max_signal_cycles);
-  core::KalmanBank bank(options, lag);
+  core::KalmanBank bank(options, lag, core::SignalBandLimit::kPossible);
   core::JointModel model;
   core::WindowReport report;
   JointOutput out;

@@ -119,30 +119,6 @@ TEST(LastingMember, FindsWhatOneWindowDoesNotShow) {
   EXPECT_LT(error({}), 0.9 * error(without));
 }
 
-/// Modes of the lasting member after some windows.
-std::size_t lasting_modes(double max_signal_cycles, const core::JointOptions& options) {
-  constexpr std::size_t kWindow = 1024;
-  Signal z = testing::sum(testing::times(testing::tone(4 * kWindow, 0.005), 3.0),
-                          testing::white_noise(4 * kWindow, 4));
-  for (const double cycles : {0.1, 0.18, 0.225, 0.31})
-    z = testing::sum(z, testing::tone(z.size(), cycles), 0.2);
-  core::JointFit fit(kWindow, options);
-  fit.set_max_signal(max_signal_cycles);
-  core::JointModel model;
-  core::WindowReport report;
-  for (std::size_t t = 0; t + kWindow <= z.size(); t += 32)
-    fit.fit(std::span(z).subspan(t, kWindow), core::white_noise(1.0), model, report);
-  return model.lasting.modes(1.0).size();
-}
-
-// Where there is a signal band, a faint mode beside its edge lets through what lies beyond: all have to pay as those of the pruned set.
-TEST(LastingMember, HasNoFaintModesInASignalBand) {
-  core::JointOptions pays;
-  pays.lasting_prune_gain = pays.prune_gain;
-  EXPECT_GT(lasting_modes(0.5, {}), lasting_modes(0.5, pays));
-  EXPECT_EQ(lasting_modes(0.4, {}), lasting_modes(0.4, pays));
-}
-
 // A fit that goes on may make a tone of the mode that was called slow.
 TEST(LastingMember, CallsTheSlowestModeSlow) {
   constexpr std::size_t kWindow = 1024;

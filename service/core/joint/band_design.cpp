@@ -1,0 +1,128 @@
+#include "core/joint/band_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/joint/companion_blocks.hpp"
+#include "core/signal/portable_math.hpp"
+#include "core/signal/sums.hpp"
+
+namespace gyrod::core {
+namespace {
+
+/// Responses are followed until what 32 samples add is below this, in parts of what the first 32 add.
+constexpr double kFaded = 1e-3;
+/// gamma has nothing above the band, so that every so many of its values will do, in parts of the reach.
+constexpr std::size_t kValuesOfGamma = 32;
+
+/// drive / |a(w)|^2, by Horner's rule in e^-iw.
+double spectrum(const FilterBlock& block, double cosine, double sine) noexcept {
+  double real = 0.0;
+  double imaginary = 0.0;
+  for (std::size_t i = block.order; i > 0; --i) {
+    const double sum = real - block.a[i - 1];
+    real = sum * cosine + imaginary * sine;
+    imaginary = imaginary * cosine - sum * sine;
+  }
+  real += 1.0;
+  return block.drive / (real * real + imaginary * imaginary);
+}
+
+}  // namespace
+
+BandDesign::BandDesign() : response_(SignalBand::kMaxReach + kMaxLag + kFar + SignalBand::kMaxReach + 1) {}
+
+void BandDesign::set(double cycles) noexcept {
+  const double before = band_.cycles();
+  band_.set(cycles);
+  if (band_.cycles() == before || !band_.limits()) return;
+  const double top = std::min(band_.cycles() + 2.0 / static_cast<double>(band_.reach()), 0.5);
+  for (std::size_t i = 0; i < kFrequencies; ++i) {
+    const double its_cycles = top * (static_cast<double>(i) + 0.5) / static_cast<double>(kFrequencies);
+    const auto [sine, cosine] = portable_sine_cosine(its_cycles);
+    const double gain = band_.gain(its_cycles);
+    frequencies_[i] = {.cosine = cosine,
+                       .sine = sine,
+                       .weight = 2.0 * gain * gain * top / static_cast<double>(kFrequencies)};
+  }
+}
+
+void BandDesign::describe(std::span<const double> signal_covariance, MemberModel& member) noexcept {
+  if (!band_.limits()) return;
+  look_ahead(member);
+  respond(signal_covariance, member);
+  member.band_variance = left_by_all(member) + member.innovation_variance * left_by_later();
+}
+
+/// By Horner's rule: row <- (row + f[j] C') A.
+void BandDesign::look_ahead(MemberModel& member) const noexcept {
+  member.ahead = {};
+  for (auto j = static_cast<std::ptrdiff_t>(band_.reach()); j > static_cast<std::ptrdiff_t>(kMaxLag); --j) {
+    add_signal(member.blocks.all(), band_.tap(j), member.ahead.data());
+    advance_row(member.blocks.all(), member.ahead.data());
+  }
+}
+
+/// psi_k for -reach <= k <= kMaxLag + kFar + reach, 0 from where it has faded.
+void BandDesign::respond(std::span<const double> signal_covariance, const MemberModel& member) noexcept {
+  std::array<double, kMaxStates> x = member.gain;
+  const std::size_t reach = band_.reach();
+  for (std::size_t k = 1; k <= reach; ++k) {
+    double signal = 0.0;
+    double* state = x.data();
+    for (const FilterBlock& block : member.blocks.all()) {
+      signal += block.signal * advance(block.a, state, block.order);
+      state += block.order;
+    }
+    response_[reach - k] = signal;
+  }
+  constexpr std::size_t kPart = 32;
+  std::array<double, kMaxStates> h{};
+  std::size_t head = 0;
+  for (const FilterBlock& block : member.blocks.all()) {
+    h[head] = 1.0;
+    head += block.order;
+  }
+  const std::span<double> later = std::span(response_).subspan(reach, kMaxLag + kFar + reach + 1);
+  std::ranges::fill(later, 0.0);
+  double first = 0.0;
+  double part = 0.0;
+  for (std::size_t k = 0; k < later.size(); ++k) {
+    later[k] = dot(signal_covariance.first(member.states), std::span(h).first(member.states)) /
+               member.innovation_variance;
+    step_back(member, h);
+    part += std::abs(later[k]);
+    if ((k + 1) % kPart != 0) continue;
+    if (k < kPart) first = part;
+    if (k > kMaxLag && part < kFaded * first) return;
+    part = 0.0;
+  }
+}
+
+double BandDesign::left_by_all(const MemberModel& member) const noexcept {
+  double sum = 0.0;
+  for (const Frequency& frequency : frequencies_) {
+    double signal = 0.0;
+    double other = member.white_variance;
+    for (const FilterBlock& block : member.blocks.all()) {
+      const double whole = spectrum(block, frequency.cosine, frequency.sine);
+      signal += block.signal * whole;
+      other += (1.0 - block.signal) * whole;
+    }
+    sum += frequency.weight * (signal / (signal + other)) * other;
+  }
+  return sum;
+}
+
+double BandDesign::left_by_later() const noexcept {
+  const std::size_t step = std::max<std::size_t>(band_.reach() / kValuesOfGamma, 1);
+  const std::span<const double> taps = band_.taps();
+  double sum = 0.0;
+  for (std::size_t m = kMaxLag + 1 + step / 2; m <= kMaxLag + kFar; m += step) {
+    const double gamma = dot(taps, std::span(response_).subspan(m, taps.size()));
+    sum += gamma * gamma;
+  }
+  return static_cast<double>(step) * sum;
+}
+
+}  // namespace gyrod::core
