@@ -206,6 +206,7 @@ EvaluationInput input_of(const EvaluateFlags& flags, const EvaluationOptions& op
   EvaluationInput input = flags.input;
   input.max_rate_radps = options.settings.engine.max_rate_radps;
   input.max_bridged_samples = options.settings.engine.max_bridged_samples;
+  input.max_signal_hz = options.settings.denoise.max_signal_hz;
   keep_each_once(input.axes);
   keep_each_once(input.noise_scales);
   if (!flags.truth_prefix.empty()) input.truth_prefix = flags.truth_prefix;

@@ -162,7 +162,8 @@ class RowJudge {
     const core::Contender plain = one.run(row_.noisy_dps);
     add_histogram(one.name, plain);
     if (!steps_.next()) return;
-    const core::GuardCase on{row_.noisy_dps, row_.truth_dps, options_.range, rate_hz_};
+    const core::GuardCase on{row_.noisy_dps, row_.truth_dps, options_.range, rate_hz_,
+                             options_.settings.denoise.max_signal_hz};
     judged_.guards.push_back({one.name, core::guards(one, plain, on)});
   }
 

@@ -157,6 +157,7 @@ class RowMaker {
     for (std::size_t n = 0; n < row.noise_dps.size(); ++n) row.noise_dps[n] -= row.truth_dps[n];
     row.noise_dps = without_mean(with_gaps_bridged(row.noise_dps));
     row.noise = told_beforehand(input_.known, axis, {}, 1.0, record_.sample_rate_hz);
+    limit(row);
     return row;
   }
 
@@ -172,7 +173,13 @@ class RowMaker {
     row.noise = told_beforehand(input_.known, input_.noise_axes[axis_index(axis)],
                                 spare(all, input_.noise_start, samples), scale, record_.sample_rate_hz);
     row.noisy_dps = composite(row.truth_dps, row.noise_dps);
+    limit(row);
     return row;
+  }
+
+  void limit(EvaluationRow& row) const {
+    if (input_.max_signal_hz > 0.0)
+      row.truth_dps = within_band(row.truth_dps, record_.sample_rate_hz, input_.max_signal_hz);
   }
 
   /// What the sensor measures on an axis that is not judged, deg/s; empty where a file lacks what is needed.

@@ -33,6 +33,8 @@ struct EvaluationInput {
   std::vector<double> noise_scales = {1.0};
   /// What is known of the sensor whose noise it is: the one that the noise recording is of, where there is one.
   NoiseKnowledge known;
+  /// End of the signal band: what of the truth lies above is not asked for. 0: all is.
+  double max_signal_hz = 0.0;
   std::vector<std::string> axes = {"x", "y", "z"};
   bool skip_broken_rows = false;
   /// Of both files, as in files::RecordOptions.
@@ -46,10 +48,10 @@ struct EvaluationInput {
 struct EvaluationRow {
   std::string axis;
   double noise_scale = 1.0;
-  std::vector<double> truth_dps;  ///< NaN where it is not known
+  std::vector<double> truth_dps;  ///< within the signal band; NaN where it is not known
   std::vector<double> noisy_dps;  ///< finite
   std::vector<double>
-      noise_dps;  ///< finite, mean 0: what is added, or measured minus true, where the truth is lost by straight lines
+      noise_dps;  ///< finite, mean 0: what is added, or measured minus true at all frequencies, where the truth is lost by straight lines
   RowNoise noise;  ///< what methods that take a model of it are told
   /// All that the sensor measures, what it is told in `noise` included; null where the noise is known, or shared by its axes.
   std::shared_ptr<const SensorAxes> sensor;

@@ -90,7 +90,7 @@ std::string head(const Evaluation& evaluation) {
          " to " + std::to_string(options.range.end) + "; window " + std::to_string(engine.window_samples) +
          ", hop " + std::to_string(engine.hop_samples) + longer_windows(engine, rows.rate_hz) + ", lag " +
          std::to_string(engine.lag_samples) + " samples, " +
-         (max_signal_hz > 0.0 ? "signal up to " + short_number(max_signal_hz) + " Hz"
+         (max_signal_hz > 0.0 ? "signal and truth up to " + short_number(max_signal_hz) + " Hz"
                               : "signal of any frequency") +
          "\n";
 }

@@ -1,6 +1,7 @@
 /// The columns of a recording that hold the rates of a better gyro.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,11 @@ namespace gyrod::app {
 /// unit and a number.
 [[nodiscard]] std::vector<double> truth_rates(const files::Record& record, const std::string& prefix,
                                               const std::string& axis);
+
+/// What of the truth is within the signal band, up to this frequency (core::SignalBand); NaN where that is not known: as far as the low-pass reaches from
+/// the ends and from samples that are not known.
+/// @param max_signal_hz 0, or half the sample rate and more: all of it
+[[nodiscard]] std::vector<double> within_band(std::span<const double> truth, double rate_hz,
+                                              double max_signal_hz);
 
 }  // namespace gyrod::app

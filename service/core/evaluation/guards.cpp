@@ -15,6 +15,8 @@ namespace {
 constexpr double kSwingDps = 5.0;
 constexpr double kVibrationDps = 1.0;
 constexpr double kVibrationHz = 27.0;
+/// Up to this part of the signal band's end its low-pass passes everything.
+constexpr double kWithinBand = 0.9;
 /// Of the jackknife's batches: longer than the memory of what estimators miss of slow motion.
 constexpr std::size_t kBatchSeconds = 10;
 
@@ -82,6 +84,10 @@ Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& 
                                 1.0, test.limit, "the answer varies too much to tell");
   if (!known) guard.standard_error.reset();
   guard.group_delay_samples = response->delay_samples;
+  if (on.max_signal_hz > 0.0 && test.frequency_hz > kWithinBand * on.max_signal_hz) {
+    guard.verdict = Verdict::kNotApplicable;
+    guard.reason = "it is not within the signal band, which ends at denoise.max_signal_hz";
+  }
   return guard;
 }
 

@@ -22,7 +22,7 @@ enum class GuardKind : std::uint8_t {
   kSeamOutliers,  ///< share of second differences at seams beyond the elsewhere 95 % quantile; at most 0.05 + 3 standard errors, or likewise
   kSeamWorstStep,  ///< worst sample-to-sample step at a seam in standard deviations of those elsewhere; at most 3, or likewise
   kDelay,  ///< shift of greatest correlation with the truth, samples; 0.5 at most, where that is known to 0.25
-  kVibrationGain,  ///< gain of an added 27 Hz tone (fs/4 at most) of 1 deg/s; off 1 by 0.1 at most
+  kVibrationGain,  ///< gain of an added 27 Hz tone (fs/4 at most) of 1 deg/s; off 1 by 0.1 at most, unless it is beyond the signal band
 };
 
 enum class Verdict : std::uint8_t { kPass, kFail, kNotApplicable };
@@ -47,6 +47,7 @@ struct GuardCase {
   std::span<const double> truth_dps;  ///< as long; NaN where not known
   SampleRange range;
   double rate_hz = 100.0;
+  double max_signal_hz = 0.0;  ///< end of the signal band; 0: there is none
 };
 
 struct GuardLimits {

@@ -2,7 +2,9 @@
 #include "app/evaluation_rows.hpp"
 
 #include <array>
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -262,6 +264,28 @@ TEST_F(EvaluationRowsTest, DoNotBeginBeyondTheNoise) {
   EXPECT_THAT(
       [&] { static_cast<void>(app::evaluation_rows(given)); },
       ThrowsMessage<CLI::ValidationError>(AllOf(HasSubstr("--noise-start"), HasSubstr("3000 good samples"))));
+}
+
+// 1 Hz and 20 Hz, of which a limit of 5 Hz leaves the former: known but for what the low-pass reaches at the ends, 8 / 0.05 samples, and beside what is
+// lost.
+TEST_F(EvaluationRowsTest, AskForWhatIsWithinTheSignalBand) {
+  const auto slow = [](int n) { return std::sin(2.0 * std::numbers::pi * 0.01 * n); };
+  const auto fast = [](int n) { return 0.5 * std::sin(2.0 * std::numbers::pi * 0.2 * n); };
+  write_signal([&](int n) {
+    const std::string truth = n == 1500 ? "nan" : std::to_string(slow(n) + fast(n));
+    return std::to_string(0.01 * n) + "," + std::to_string(slow(n) + fast(n) + 0.25) + "," + truth + "\n";
+  });
+  app::EvaluationInput limited = input();
+  limited.max_signal_hz = 5.0;
+  const app::EvaluationRow row = app::evaluation_rows(limited).rows[0];
+  ASSERT_EQ(row.truth_dps.size(), static_cast<std::size_t>(kSamples));
+  for (int n = 0; n < kSamples; ++n) {
+    const double truth = row.truth_dps[static_cast<std::size_t>(n)];
+    const bool known = n >= 160 && n < kSamples - 160 && std::abs(n - 1500) > 160;
+    ASSERT_EQ(std::isfinite(truth), known) << n;
+    ASSERT_NEAR(known ? truth : slow(n), slow(n), 0.006) << n;
+    EXPECT_NEAR(row.noise_dps[static_cast<std::size_t>(n)], 0.0, 1e-5) << "of the whole truth";
+  }
 }
 
 }  // namespace

@@ -180,6 +180,24 @@ TEST(Guards, FailOneThatLosesVibration) {
   EXPECT_NEAR(*guard.value, 0.5, 0.05);  // fs/4 is the cut-off of both passes, and 0.45 takes a little
 }
 
+// Who says where the signal ends wants what lies beyond to go.
+TEST(Guards, DoNotAskForVibrationBeyondTheSignalBand) {
+  const Drive drive;
+  const Method method = method_with([](std::vector<double>& x) {
+    x = rival_estimate({Rival::kZeroPhase2, 0.1}, x);
+  });
+  GuardCase on = drive.guard_case();
+  for (const double max_signal_hz : {0.0, 10.0, 26.0, 40.0}) {
+    on.max_signal_hz = max_signal_hz;
+    const Guard vibration = guards(method, method.run(drive.noisy), on).back();
+    ASSERT_EQ(vibration.kind, GuardKind::kVibrationGain);
+    EXPECT_LT(vibration.value.value_or(1.0), 0.2);
+    const bool beyond = max_signal_hz == 10.0 || max_signal_hz == 26.0;
+    EXPECT_EQ(vibration.verdict, beyond ? Verdict::kNotApplicable : Verdict::kFail) << max_signal_hz;
+    EXPECT_EQ(vibration.reason.find("max_signal_hz") != std::string::npos, beyond);
+  }
+}
+
 TEST(Guards, SayWhyTheyDoNotApply) {
   const Drive drive;
   Method method = method_with(none);
