@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "app/angle_units.hpp"
 #include "core/joint/signal_band.hpp"
-#include "core/signal/sums.hpp"
 #include "files/column_names.hpp"
 #include "files/csv_row.hpp"
 #include "files/file_error.hpp"
@@ -144,11 +142,7 @@ std::string truth_prefix(const files::Record& record, const EvaluationInput& inp
 std::vector<double> within_band(std::span<const double> truth, double rate_hz, double max_signal_hz) {
   core::SignalBand band;
   if (max_signal_hz > 0.0) band.set(max_signal_hz / rate_hz);
-  const std::span<const double> taps = band.taps();
-  std::vector<double> result(truth.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t first = 0; first + taps.size() <= truth.size(); ++first)
-    result[first + band.reach()] = core::dot(taps, truth.subspan(first, taps.size()));
-  return result;
+  return core::low_passed(truth, band);
 }
 
 }  // namespace gyrod::app

@@ -5,7 +5,7 @@
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
 // (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), sine=0 (amplitude of a sine in the noise and in what it is calibrated on, in deviations of the noise), sine_at=0.2, second_sine_at=0 (cycles per sample; 0: none),
-// begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), motion=car (hand: recordings of sensors
+// begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), band=0 (Hz: the signal band and what of the truth is asked for), motion=car (hand: recordings of sensors
 // that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; shaking: a car's roof, 100 Hz, 200 s from shaking_from=30 on; these have no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
 #include <array>
@@ -44,6 +44,7 @@ test::JointSetting setting_of(const Arguments& arguments) {
   setting.told_rate = number(arguments, "told", 1) != 0.0;
   setting.from_s = number(arguments, "from", setting.from_s);
   setting.to_s = number(arguments, "to", setting.to_s);
+  setting.max_signal_hz = number(arguments, "band", 0);
   return setting;
 }
 
@@ -117,6 +118,7 @@ int study(const Arguments& arguments) {
     const core::NoiseModel noise = believed(row, arguments);
     begin_at(row, number(arguments, "begin", 0));
     if (motion == "car" || motion == "smooth") test::resample(row, number(arguments, "rate", 120));
+    if (setting.max_signal_hz > 0.0) test::limit(row, setting.max_signal_hz);
     const test::JointFigures figures = test::joint_figures(row, noise, setting);
     std::printf("%-12s ", row.name.c_str());
     print("", figures.rmse, digits);

@@ -66,6 +66,8 @@ struct JointSetting {
   bool told_rate = true;  ///< false: the estimator does not know the sample rate
   double from_s = 20.0;   ///< the part that is judged
   double to_s = 80.0;
+  double max_signal_hz =
+      0.0;  ///< end of the signal band, which limit() has to know of, too; 0: there is none
 };
 
 struct JointFigures {
@@ -123,6 +125,13 @@ inline void resample(DriveRow& row, double rate_hz) {
   row.rate_hz = rate_hz;
 }
 
+/// What is asked of the row where there is a signal band.
+inline void limit(DriveRow& row, double max_signal_hz) {
+  core::SignalBand band;
+  band.set(max_signal_hz / row.rate_hz);
+  row.truth_dps = core::low_passed(bridged(row.truth_dps), band);
+}
+
 /// [begin, end) in samples; the answers to the last of them are 32 late at most.
 inline std::array<std::size_t, 2> judged_part(const DriveRow& row, const JointSetting& setting) {
   const auto begin = static_cast<std::size_t>(setting.from_s * row.rate_hz);
@@ -136,12 +145,15 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
   const std::size_t hop = setting.options.hop_samples;
   core::JointFit fit(setting.window, setting.options);
   fit.set_sample_rate(setting.told_rate ? row.rate_hz : 0.0);
+  const bool limited = setting.max_signal_hz > 0.0;
+  if (limited) fit.set_max_signal(setting.max_signal_hz / row.rate_hz);
   // Each answers at once, too; for lag 0 that of lag 16 does, as the default has it.
   static_assert(kJointLags.front() == 0);
   constexpr std::size_t kAtOnceOf = 16;
   std::vector<core::KalmanBank> banks;
   for (const std::size_t lag : std::span(kJointLags).subspan(1)) {
-    banks.emplace_back(setting.options, lag);
+    banks.emplace_back(setting.options, lag,
+                       limited ? core::SignalBandLimit::kPossible : core::SignalBandLimit::kNone);
     if (core::is_usable(noise)) banks.back().expect_noise(core::noise_variance(noise));
   }
   const auto model = std::make_unique<core::JointModel>();

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/signal/portable_math.hpp"
+#include "core/signal/sums.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -52,6 +54,14 @@ double SignalBand::gain(double cycles) const noexcept {
     now = next;
   }
   return sum;
+}
+
+std::vector<double> low_passed(std::span<const double> x, const SignalBand& band) {
+  const std::span<const double> taps = band.taps();
+  std::vector<double> result(x.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t first = 0; first + taps.size() <= x.size(); ++first)
+    result[first + band.reach()] = dot(taps, x.subspan(first, taps.size()));
+  return result;
 }
 
 }  // namespace gyrod::core

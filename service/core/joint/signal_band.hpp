@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace gyrod::core {
 
@@ -38,5 +39,8 @@ class SignalBand {
   std::size_t reach_ = 0;
   std::array<double, 2 * kMaxReach + 1> taps_{1.0};
 };
+
+/// The low-pass over a whole record; NaN where it would reach beyond an end or a sample that is no number.
+[[nodiscard]] std::vector<double> low_passed(std::span<const double> x, const SignalBand& band);
 
 }  // namespace gyrod::core

@@ -202,16 +202,6 @@ TEST(KalmanBank, WithinABandAllocatesNothing) {
   EXPECT_EQ(testing::allocations(), before);
 }
 
-Signal low_passed(const Signal& x, double cycles) {
-  const SignalBand band = band_of(cycles);
-  const std::size_t reach = band.reach();
-  Signal y(x.size());
-  for (std::size_t t = reach; t + reach < x.size(); ++t)
-    y[t] = std::inner_product(band.taps().begin(), band.taps().end(),
-                              x.begin() + static_cast<std::ptrdiff_t>(t - reach), 0.0);
-  return y;
-}
-
 // A road shakes at all frequencies from 0.04 to 0.16 cycles a sample: one wide mode, which is both below and above any limit between them. The
 // least error is that of the true model.
 TEST(JointFit, KnowsThePartOfAWideModeThatIsWithinTheBand) {
@@ -226,7 +216,8 @@ TEST(JointFit, KnowsThePartOfAWideModeThatIsWithinTheBand) {
   const Signal z = testing::sum(truth, testing::times(testing::white_noise(kSize, 6), std::sqrt(kBankNoise)));
   for (const double cycles : {0.06, 0.1, 0.14}) {
     const testing::JointOutput out = testing::run_joint(z, core::white_noise(kBankNoise), 16, 64, cycles);
-    const double error = testing::rms_difference(out.denoised, low_passed(truth, cycles), 1500, 5500);
+    const double error =
+        testing::rms_difference(out.denoised, core::low_passed(truth, band_of(cycles)), 1500, 5500);
     core::BandAnswers answers({0, 16, 16});
     const core::JointModel known = banded(set, cycles);
     answers.use(known);
