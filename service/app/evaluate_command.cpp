@@ -42,7 +42,7 @@ core::SampleRange range_of(const EvaluateFlags& flags, const EvaluationRows& row
   return range;
 }
 
-void check_truth_in(const EvaluationRows& rows, core::SampleRange range) {
+void check_truth_in(const EvaluationRows& rows, core::SampleRange range, double max_signal_hz) {
   for (const EvaluationRow& row : rows.rows) {
     const auto begin = row.truth_dps.begin();
     const auto known = std::count_if(begin + static_cast<std::ptrdiff_t>(range.begin),
@@ -50,7 +50,10 @@ void check_truth_in(const EvaluationRows& rows, core::SampleRange range) {
                                      [](double value) { return std::isfinite(value); });
     if (known > 1) continue;
     throw files::FileError(rows.name + ": the truth of axis " + row.axis + " is not known between samples " +
-                           std::to_string(range.begin) + " and " + std::to_string(range.end));
+                           std::to_string(range.begin) + " and " + std::to_string(range.end) +
+                           (max_signal_hz > 0.0 ? ", as far as the low-pass of denoise.max_signal_hz reaches "
+                                                  "beside longer gaps and the ends"
+                                                : ""));
   }
 }
 
@@ -85,7 +88,7 @@ int evaluate_or_stop(const EvaluateFlags& flags, Interrupt& interrupt) {
 
   const EvaluationRows rows = load(flags, input, interrupt);
   options.range = range_of(flags, rows);
-  check_truth_in(rows, options.range);
+  check_truth_in(rows, options.range, options.settings.denoise.max_signal_hz);
   check_noise_of(rows, options);
   std::vector<JudgedRow> judged;
   {

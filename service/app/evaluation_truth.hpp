@@ -20,8 +20,8 @@ namespace gyrod::app {
 [[nodiscard]] std::vector<double> truth_rates(const files::Record& record, const std::string& prefix,
                                               const std::string& axis);
 
-/// What of the truth is within the signal band, up to this frequency (core::SignalBand); NaN where that is not known: as far as the low-pass reaches from
-/// the ends and from samples that are not known.
+/// What of the truth is within the signal band, up to this frequency (core::SignalBand). Gaps of up to a quarter of the limit's period are bridged by
+/// straight lines; NaN as far as the low-pass reaches from longer ones and from the ends.
 /// @param max_signal_hz 0, or half the sample rate and more: all of it
 [[nodiscard]] std::vector<double> within_band(std::span<const double> truth, double rate_hz,
                                               double max_signal_hz);

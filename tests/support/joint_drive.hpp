@@ -18,6 +18,7 @@
 #include "core/evaluation/tuning.hpp"
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
+#include "core/joint/signal_band.hpp"
 #include "core/noise/standstill_learner.hpp"
 #include "core/noise/still_noise.hpp"
 #include "support/drive_rows.hpp"

@@ -11,7 +11,8 @@
 namespace gyrod::core {
 namespace {
 
-std::ptrdiff_t after(std::size_t lag, std::size_t age) noexcept {
+/// In f, of the sample of this age.
+std::ptrdiff_t offset_of(std::size_t lag, std::size_t age) noexcept {
   return static_cast<std::ptrdiff_t>(lag) - static_cast<std::ptrdiff_t>(age);
 }
 
@@ -19,14 +20,14 @@ std::ptrdiff_t after(std::size_t lag, std::size_t age) noexcept {
 double told_by_innovation(const SignalBand& band, const MemberModel& member, std::size_t lag,
                           std::size_t age) noexcept {
   double sum = 0.0;
-  for (std::size_t k = age; k <= kMaxLag; ++k) sum += band.tap(after(lag, k)) * member.smoothing[k - age];
+  for (std::size_t k = age; k <= kMaxLag; ++k) sum += band.tap(offset_of(lag, k)) * member.smoothing[k - age];
   return sum;
 }
 
 /// A look-ahead of one sample less: row <- (row + f[lag] C') A.
 void step_ahead(const SignalBand& band, const MemberModel& member, std::size_t lag,
                 std::array<double, kMaxStates>& row) noexcept {
-  add_signal(member.blocks.all(), band.tap(after(lag, 0)), row.data());
+  add_signal(member.blocks.all(), band.tap(offset_of(lag, 0)), row.data());
   advance_row(member.blocks.all(), row.data());
 }
 
@@ -35,6 +36,10 @@ void step_ahead(const SignalBand& band, const MemberModel& member, std::size_t l
 void BandAnswers::use(const BankModel& model) noexcept {
   band_.set(model.band_cycles);
   if (!band_.limits()) return;
+  for (std::size_t lag = 0; lag <= kMaxLag; ++lag) {
+    const auto taps = settled_taps(lag);
+    shares_[lag] = 1.0 - std::accumulate(taps.begin(), taps.end(), 0.0);
+  }
   for (std::size_t i = 0; i < kMembers; ++i) {
     if (!model.members[i].usable) continue;
     for (std::size_t slot = 0; slot < kOftenAsked; ++slot) {
@@ -53,29 +58,12 @@ BandAnswers::Row BandAnswers::make_row(const MemberModel& member, std::size_t la
   return row;
 }
 
-const BandAnswers::Row& BandAnswers::row(const BankModel& model, std::size_t member, std::size_t lag,
-                                         Row& made) const noexcept {
+const BandAnswers::Row* BandAnswers::known_row(std::size_t member, std::size_t lag) const noexcept {
   const auto* const known = std::ranges::find(lags_, lag);
-  if (known != lags_.end()) return rows_[member][static_cast<std::size_t>(known - lags_.begin())];
-  made = make_row(model.members[member], lag);
-  return made;
+  return known != lags_.end() ? &rows_[member][static_cast<std::size_t>(known - lags_.begin())] : nullptr;
 }
 
-std::array<double, kMaxLag + 1> BandAnswers::error_variances(const MemberModel& member) const noexcept {
-  std::array<double, kMaxLag + 1> variances{};
-  std::array<double, kMaxStates> ahead = member.ahead;
-  variances[kMaxLag] = member.band_variance;
-  for (std::size_t lag = kMaxLag; lag > 0; --lag) {
-    const double predicted =
-        std::inner_product(ahead.begin(), ahead.begin() + member.states, member.gain.begin(), 0.0);
-    const double gamma = told_by_innovation(band_, member, lag, 0) + predicted;
-    variances[lag - 1] = variances[lag] + member.innovation_variance * gamma * gamma;
-    step_ahead(band_, member, lag, ahead);
-  }
-  return variances;
-}
-
-void BandAnswers::settle(double estimate) noexcept {
+void BandAnswers::feed(double estimate) noexcept {
   if (settled_count_ == 0) settled_.fill(estimate);
   settled_[settled_count_ % kRing] = settled_[settled_count_ % kRing + kRing] = estimate;
   ++settled_count_;
@@ -91,11 +79,6 @@ double BandAnswers::settled_part(std::size_t lag) const noexcept {
   const auto taps = settled_taps(lag);
   const std::size_t newest = (settled_count_ - 1) % kRing + kRing;
   return dot(taps, std::span(settled_).subspan(newest - taps.size(), taps.size()));
-}
-
-double BandAnswers::share_of_members(std::size_t lag) const noexcept {
-  const auto taps = settled_taps(lag);
-  return 1.0 - std::accumulate(taps.begin(), taps.end(), 0.0);
 }
 
 }  // namespace gyrod::core

@@ -12,8 +12,8 @@ namespace {
 
 /// Responses are followed until what 32 samples add is below this, in parts of what the first 32 add.
 constexpr double kFaded = 1e-3;
-/// gamma has nothing above the band, so that every so many of its values will do, in parts of the reach.
-constexpr std::size_t kValuesOfGamma = 32;
+/// gamma has nothing above the band, so that some of its values will do: so many in a reach.
+constexpr std::size_t kValuesOfGamma = 64;
 
 /// drive / |a(w)|^2, by Horner's rule in e^-iw.
 double spectrum(const FilterBlock& block, double cosine, double sine) noexcept {
@@ -37,21 +37,30 @@ void BandDesign::set(double cycles) noexcept {
   band_.set(cycles);
   if (band_.cycles() == before || !band_.limits()) return;
   const double top = std::min(band_.cycles() + 2.0 / static_cast<double>(band_.reach()), 0.5);
+  // What is slow beside strong noise is narrow: frequencies lie the closer, the lower they are.
   for (std::size_t i = 0; i < kFrequencies; ++i) {
-    const double its_cycles = top * (static_cast<double>(i) + 0.5) / static_cast<double>(kFrequencies);
+    const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(kFrequencies);
+    const double its_cycles = top * u * u;
     const auto [sine, cosine] = portable_sine_cosine(its_cycles);
     const double gain = band_.gain(its_cycles);
     frequencies_[i] = {.cosine = cosine,
                        .sine = sine,
-                       .weight = 2.0 * gain * gain * top / static_cast<double>(kFrequencies)};
+                       .weight = 4.0 * gain * gain * top * u / static_cast<double>(kFrequencies)};
   }
 }
 
-void BandDesign::describe(std::span<const double> signal_covariance, MemberModel& member) noexcept {
-  if (!band_.limits()) return;
+bool BandDesign::describe(std::span<const double> signal_covariance, MemberModel& member) noexcept {
+  if (!band_.limits()) return true;
   look_ahead(member);
   respond(signal_covariance, member);
-  member.band_variance = left_by_all(member) + member.innovation_variance * left_by_later();
+  const double S = member.innovation_variance;
+  member.band_variance[kMaxLag] = left_by_all(member) + S * left_by_later();
+  for (std::size_t lag = kMaxLag; lag > 0; --lag) {
+    const double gamma = told_later(lag);
+    member.band_variance[lag - 1] = member.band_variance[lag] + S * gamma * gamma;
+  }
+  return std::isfinite(member.band_variance[0]) &&
+         std::ranges::all_of(member.ahead, [](double part) { return std::isfinite(part); });
 }
 
 /// By Horner's rule: row <- (row + f[j] C') A.
@@ -77,12 +86,7 @@ void BandDesign::respond(std::span<const double> signal_covariance, const Member
     response_[reach - k] = signal;
   }
   constexpr std::size_t kPart = 32;
-  std::array<double, kMaxStates> h{};
-  std::size_t head = 0;
-  for (const FilterBlock& block : member.blocks.all()) {
-    h[head] = 1.0;
-    head += block.order;
-  }
+  std::array<double, kMaxStates> h = heads(member.blocks.all());
   const std::span<double> later = std::span(response_).subspan(reach, kMaxLag + kFar + reach + 1);
   std::ranges::fill(later, 0.0);
   double first = 0.0;
@@ -114,12 +118,17 @@ double BandDesign::left_by_all(const MemberModel& member) const noexcept {
   return sum;
 }
 
+/// gamma_m: what the innovation m samples after one tells of it.
+double BandDesign::told_later(std::size_t m) const noexcept {
+  return dot(band_.taps(), std::span(response_).subspan(m, band_.taps().size()));
+}
+
 double BandDesign::left_by_later() const noexcept {
-  const std::size_t step = std::max<std::size_t>(band_.reach() / kValuesOfGamma, 1);
-  const std::span<const double> taps = band_.taps();
+  const std::size_t step =
+      band_.reach() / kValuesOfGamma | 1U;  // odd: the one that is taken is in the middle
   double sum = 0.0;
   for (std::size_t m = kMaxLag + 1 + step / 2; m <= kMaxLag + kFar; m += step) {
-    const double gamma = dot(taps, std::span(response_).subspan(m, taps.size()));
+    const double gamma = told_later(m);
     sum += gamma * gamma;
   }
   return static_cast<double>(step) * sum;

@@ -22,10 +22,11 @@ constexpr double kMostOwn = 0.25;
 /// Of x[t - lag], t the newest sample, without the slow correction; from kMaxLag samples after it at the most.
 BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
   if (!fitted_) return start_.estimate(lag);
+  assert(lag <= kMaxLag || !limited());
   if (!limited() || count_ <= kMaxLag)
     return mixture(lag, [&](std::size_t member) { return signal_estimate(member, lag); });
   BankEstimate answer = mixture(lag, [&](std::size_t member) { return band_estimate(member, lag); });
-  answer.rate += band_->settled_part(lag);
+  answer.rate += model_.mean * band_->share_of_members(lag) + band_->settled_part(lag);
   return answer;
 }
 
@@ -64,27 +65,31 @@ double KalmanBank::signal_estimate(std::size_t index, std::size_t lag) const noe
 }
 
 /// What a signal band asks of the newest sample.
-void KalmanBank::settle() noexcept {
+void KalmanBank::feed_band() noexcept {
   if (!band_ || count_ <= kMaxLag) return;
   const BankEstimate settled =
       fitted_ ? mixture(kMaxLag, [&](std::size_t member) { return signal_estimate(member, kMaxLag); })
               : start_.estimate(kMaxLag);
-  band_->settle(settled.rate);
+  band_->feed(settled.rate);
 }
 
+/// A member's part of the low-passed signal, without the mean.
 double KalmanBank::band_estimate(std::size_t index, std::size_t lag) const noexcept {
+  const BandAnswers::Row* const known = band_->known_row(index, lag);
+  return known != nullptr ? band_part(index, lag, *known)
+                          : band_part(index, lag, band_->make_row(model_.members[index], lag));
+}
+
+double KalmanBank::band_part(std::size_t index, std::size_t lag, const BandAnswers::Row& row) const noexcept {
   const Member& member = members_[index];
-  BandAnswers::Row made;
-  const BandAnswers::Row& row = band_->row(model_, index, lag, made);
-  double estimate = model_.mean * band_->share_of_members(lag);
+  double sum = 0.0;
   for (std::size_t age = 0; age <= kMaxLag; ++age) {
     const std::uint64_t then = count_ - 1 - age;
     const double tap = band_->band().tap(static_cast<std::ptrdiff_t>(lag) - static_cast<std::ptrdiff_t>(age));
-    estimate +=
-        tap * member.prediction[then % kRing] + row.innovations[age] * member.innovation[then % kRing];
+    sum += tap * member.prediction[then % kRing] + row.innovations[age] * member.innovation[then % kRing];
   }
-  for (std::size_t i = 0; i < model_.members[index].states; ++i) estimate += row.states[i] * member.x[i];
-  return estimate;
+  for (std::size_t i = 0; i < model_.members[index].states; ++i) sum += row.states[i] * member.x[i];
+  return sum;
 }
 
 BankEstimate KalmanBank::held(std::size_t age) const noexcept {

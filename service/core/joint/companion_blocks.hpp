@@ -41,6 +41,17 @@ inline void add_signal(std::span<const FilterBlock> blocks, double factor, doubl
   }
 }
 
+/// H: 1 at each block's head.
+inline std::array<double, kMaxStates> heads(std::span<const FilterBlock> blocks) noexcept {
+  std::array<double, kMaxStates> H{};
+  std::size_t head = 0;
+  for (const FilterBlock& block : blocks) {
+    H[head] = 1.0;
+    head += block.order;
+  }
+  return H;
+}
+
 /// h <- F' h = (I - H K') A' h: a step back in time of a member's smoother.
 inline void step_back(const MemberModel& member, std::array<double, kMaxStates>& h) noexcept {
   advance_row(member.blocks.all(), h.data());

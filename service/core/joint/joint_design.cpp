@@ -22,6 +22,10 @@ FilterBlock colour_block(const NoiseModel& noise) noexcept {
 
 void JointFit::design(JointModel& model) noexcept {
   model.noise_variance = seen_noise();
+  // Members of another band say nothing of this one.
+  if (model.band_cycles != designer_.band_cycles()) {
+    for (MemberModel& member : model.members) member.usable = false;
+  }
   model.band_cycles = designer_.band_cycles();
   const bool band = model.band_cycles < 0.5;
   model.beyond_band_variance = band ? unit_ * beyond_band() : 0.0;
@@ -53,7 +57,7 @@ bool JointFit::make(const BlockSet& blocks, MemberKind kind, JointModel& model) 
   member.innovation_variance *= unit_;
   member.prediction_variance *= unit_;
   member.white_variance *= unit_;
-  member.band_variance *= unit_;
+  for (double& variance : member.band_variance) variance *= unit_;
   return true;
 }
 

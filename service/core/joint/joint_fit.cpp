@@ -185,7 +185,7 @@ void JointFit::describe(std::span<const double> imf, WindowReport& report) const
   figures.mean_period_samples = mean_period(imf);
   const double floor = line_count_ > 0 ? std::sqrt(unit_ * noise_variance(noise_)) : report.noise_floor;
   figures.excess = figures.energy / (floor * floor * noise_line_energy(index));
-  // The slow mode is never left out: what is slow and beyond the signal band needs a mode of its own.
+  // A tone beyond a low signal band is to be told from what is slower: only a mode of its own predicts it.
   if (figures.mean_period_samples > std::max(options_.slow_period_samples, 1.0 / designer_.band_cycles()))
     return;
   report.k = index;

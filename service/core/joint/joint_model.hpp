@@ -25,13 +25,13 @@ enum class MemberKind : std::uint8_t {
 };
 inline constexpr std::size_t kMembers = 7;
 
-/// What the fast loop takes of it. A plain value of about 22 KB: copied, never shared.
+/// What the fast loop takes of it. A plain value of about 24 KB: copied, never shared.
 struct BankModel {
   double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
   double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared
   /// Limit of the signal band, cycles per sample; one half where there is none.
   double band_cycles = 0.5;
-  /// Of what the modes have beyond the signal band; 0 where none is set.
+  /// Of what modes have that is not asked for where there is a signal band: beyond it, or a line's; 0 where none is set.
   double beyond_band_variance = 0.0;
   /// Of what a good estimate takes off the samples: the noise, and what is left out as no signal. Infinite where a signal band is set.
   double residual_variance = 0.0;

@@ -86,11 +86,8 @@ void KalmanBank::use(const BankModel& model) noexcept {
 
 void KalmanBank::expect_error(std::size_t index) noexcept {
   const MemberModel& member = model_.members[index];
-  if (limited()) {
-    error_variance_[index] = band_->error_variances(member);
-    return;
-  }
-  for (std::size_t lag = 0; lag <= kMaxLag; ++lag) error_variance_[index][lag] = member.error_variance(lag);
+  for (std::size_t lag = 0; lag <= kMaxLag; ++lag)
+    error_variance_[index][lag] = limited() ? member.band_variance[lag] : member.error_variance(lag);
 }
 
 /// What the model makes of the options: its rate, its window, and what that spoke for.
@@ -116,7 +113,7 @@ BankEstimates KalmanBank::step(double sample) noexcept {
   } else if (!follow(sample)) {
     return start_anew(sample);
   }
-  settle();
+  feed_band();
   slow_motion_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
   BankEstimates answer;
   answer.realtime = combine(0);

@@ -41,7 +41,7 @@ enum class SignalBandLimit : bool { kNone, kPossible };
 /// (residual_check.hpp), and a slow correction (slow_correction.hpp) makes of that the answer; what it owes stays owed. What the answer
 /// lacks in size is added (gain_correction.hpp); answers at once learn that from later ones, of kLeastLater samples' look-ahead or lag
 /// (later_gain.hpp).
-/// Within a signal band the answer is the low-passed signal (band_answers.hpp).
+/// Within a signal band the answer is the low-passed signal (band_answers.hpp), from kMaxLag + 1 samples on.
 /// Before the first model, local levels answer (start_levels.hpp).
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
 /// for itself.
@@ -51,7 +51,7 @@ enum class SignalBandLimit : bool { kNone, kPossible };
 class KalmanBank {
  public:
   /// @param lag 0..kMaxLag
-  /// @param band where it is kNone the limit of a model is passed over
+  /// @param band @pre where it is kNone, models have no limit
   KalmanBank(const JointOptions& options, std::size_t lag, SignalBandLimit band = SignalBandLimit::kNone);
 
   /// Takes over a model (copied) from the next sample on: its members run over the last hand_over_samples first, and inherit the
@@ -130,9 +130,11 @@ class KalmanBank {
   }
   template <class Answer>
   [[nodiscard]] BankEstimate mixture(std::size_t lag, const Answer& answer) const noexcept;
-  void settle() noexcept;
+  void feed_band() noexcept;
   [[nodiscard]] double signal_estimate(std::size_t index, std::size_t lag) const noexcept;
   [[nodiscard]] double band_estimate(std::size_t index, std::size_t lag) const noexcept;
+  [[nodiscard]] double band_part(std::size_t index, std::size_t lag,
+                                 const BandAnswers::Row& row) const noexcept;
   [[nodiscard]] bool limited() const noexcept { return band_ && band_->band().limits(); }
   void expect_error(std::size_t index) noexcept;
   [[nodiscard]] double sample_at(std::uint64_t time) const noexcept {

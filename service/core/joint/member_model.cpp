@@ -35,21 +35,21 @@ class MemberDesigner::Workspace {
     std::array<double, kMaxStates> gain{};
     std::ranges::transform(observed, gain.begin(), [S](double covariance) { return covariance / S; });
     if (!std::ranges::all_of(gain, [](double K) { return std::isfinite(K); })) return false;
-    member.blocks = blocks;
-    member.states = observed.size();
-    member.gain = gain;
-    member.innovation_variance = S;
+    MemberModel made{.blocks = blocks,
+                     .states = observed.size(),
+                     .gain = gain,
+                     .innovation_variance = S,
+                     .white_variance = r,
+                     .usable = true};
     see_signal(blocks);
-    member.prediction_variance = 0.0;
     std::size_t head = 0;
     for (const FilterBlock& block : blocks.all()) {
-      member.prediction_variance += block.signal * signal_covariance_[head] + block.apart;
+      made.prediction_variance += block.signal * signal_covariance_[head] + block.apart;
       head += block.order;
     }
-    member.white_variance = r;
-    smooth(member);
-    band.describe(signal_covariance_, member);
-    member.usable = true;
+    smooth(made);
+    if (!band.describe(signal_covariance_, made)) return false;
+    member = made;
     return true;
   }
 
@@ -71,12 +71,7 @@ class MemberDesigner::Workspace {
 
   /// g_k for all lags: h <- F' h = (I - H K') A' h.
   void smooth(MemberModel& member) noexcept {
-    std::array<double, kMaxStates> h{};
-    std::size_t head = 0;
-    for (const FilterBlock& block : member.blocks.all()) {
-      h[head] = 1.0;
-      head += block.order;
-    }
+    std::array<double, kMaxStates> h = heads(member.blocks.all());
     const auto observed = riccati_.observed_covariance();
     for (std::size_t k = 0; k <= kMaxLag; ++k) {
       double signal = 0.0;

@@ -51,10 +51,10 @@ struct MemberModel {
   /// The same of all that is not white, signal or not: H' X (F')^k H / S.
   std::array<double, kMaxLag + 1> whole_smoothing{};
   double white_variance = 0.0;  ///< r, unit^2
-  /// Within a signal band (core/joint/band_design.hpp): what the states tell of samples beyond kMaxLag ahead, and the variance of what is not known
-  /// with that look-ahead, unit^2. 0 where there is none.
+  /// Within a signal band (core/joint/band_design.hpp): what the states tell of samples beyond kMaxLag ahead, and the variance of the error with a
+  /// look-ahead of 0 .. kMaxLag, unit^2. 0 where there is none.
   std::array<double, kMaxStates> ahead{};
-  double band_variance = 0.0;
+  std::array<double, kMaxLag + 1> band_variance{};
   bool usable = false;
 
   /// Variance of the estimate's error at this lag, C' X C - S sum_{k <= lag} g_k^2, unit^2. @pre lag <= kMaxLag

@@ -229,7 +229,7 @@ TEST(JointMembers, ExpectTheNoisesLineAtItsLevel) {
   }
 }
 
-// A tone that is slower than 128 samples a period and still beyond the signal band would be lost in the slow mode, which is all motion.
+// A tone that is slower than 128 samples a period and still beyond the signal band would be lost in the slow mode, which cannot predict it.
 TEST(JointMembers, HaveAModeForWhatIsSlowAndBeyondTheSignalBand) {
   const Signal tone = testing::times(testing::tone(kMembersWindow, 0.006), 4.0);
   const Signal z = testing::sum(tone, testing::white_noise(kMembersWindow, 4), 0.1);
