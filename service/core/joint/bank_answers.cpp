@@ -64,7 +64,7 @@ double KalmanBank::signal_estimate(std::size_t index, std::size_t lag) const noe
   return estimate;
 }
 
-/// What a signal band asks of the newest sample.
+/// Hands on what is known by now of the sample kMaxLag ago, which will not be known better.
 void KalmanBank::feed_band() noexcept {
   if (!band_ || count_ <= kMaxLag) return;
   const BankEstimate settled =
