@@ -9,19 +9,25 @@
 
 namespace gyrod::app {
 
+void bridge_gaps(std::vector<double>& values, std::size_t most) {
+  const auto known = [](double value) { return std::isfinite(value); };
+  auto last = std::ranges::find_if(values, known);
+  while (last != values.end()) {
+    const auto next = std::find_if(last + 1, values.end(), known);
+    const auto lost = static_cast<std::size_t>(next - last) - 1;
+    for (std::size_t step = 0; next != values.end() && lost <= most && step < lost; ++step)
+      *(last + 1 + static_cast<std::ptrdiff_t>(step)) = core::bridge(*last, *next, step, lost);
+    last = next;
+  }
+}
+
 std::vector<double> with_gaps_bridged(std::vector<double> values) {
   const auto known = [](double value) { return std::isfinite(value); };
-  auto next = std::ranges::find_if(values, known);
-  std::fill(values.begin(), next, *next);
-  while (next != values.end()) {
-    const auto last = next;
-    next = std::find_if(last + 1, values.end(), known);
-    const auto lost = static_cast<std::size_t>(next - last) - 1;
-    const double right = next == values.end() ? *last : *next;
-    for (std::size_t step = 0; step < lost; ++step) {
-      *(last + 1 + static_cast<std::ptrdiff_t>(step)) = core::bridge(*last, right, step, lost);
-    }
-  }
+  const auto first = std::ranges::find_if(values, known);
+  const auto last = std::find_if(values.rbegin(), values.rend(), known);
+  std::fill(values.begin(), first, *first);
+  std::fill(values.rbegin(), last, *last);
+  bridge_gaps(values, values.size());
   return values;
 }
 

@@ -7,6 +7,9 @@
 
 namespace gyrod::app {
 
+/// Puts straight lines in place of what is lost between two values that are known, where that is no longer than this.
+void bridge_gaps(std::vector<double>& values, std::size_t most);
+
 /// NaN between two numbers becomes a straight line; NaN at an end the nearest number. @pre there is a number
 [[nodiscard]] std::vector<double> with_gaps_bridged(std::vector<double> values);
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "app/angle_units.hpp"
+#include "app/evaluation_series.hpp"
 #include "core/joint/signal_band.hpp"
-#include "core/signal/interpolation.hpp"
 #include "files/column_names.hpp"
 #include "files/csv_row.hpp"
 #include "files/file_error.hpp"
@@ -110,19 +109,6 @@ bool is_tried(const std::vector<std::string>& names, const std::string& prefix) 
                          files::names_of(record.others));
 }
 
-/// By straight lines, those of up to `most` samples between two that are known.
-void bridge_short_gaps(std::vector<double>& values, std::size_t most) {
-  const auto known = [](double value) { return std::isfinite(value); };
-  auto last = std::ranges::find_if(values, known);
-  while (last != values.end()) {
-    const auto next = std::find_if(last + 1, values.end(), known);
-    const auto lost = static_cast<std::size_t>(next - last) - 1;
-    for (std::size_t step = 0; next != values.end() && lost <= most && step < lost; ++step)
-      *(last + 1 + static_cast<std::ptrdiff_t>(step)) = core::bridge(*last, *next, step, lost);
-    last = next;
-  }
-}
-
 }  // namespace
 
 std::vector<double> truth_rates(const files::Record& record, const std::string& prefix,
@@ -158,7 +144,7 @@ std::vector<double> within_band(std::span<const double> truth, double rate_hz, d
   core::SignalBand band;
   if (max_signal_hz > 0.0) band.set(max_signal_hz / rate_hz);
   std::vector<double> known(truth.begin(), truth.end());
-  if (band.limits()) bridge_short_gaps(known, static_cast<std::size_t>(0.25 / band.cycles()));
+  if (band.limits()) bridge_gaps(known, static_cast<std::size_t>(0.25 / band.cycles()));
   return core::low_passed(known, band);
 }
 

@@ -26,23 +26,35 @@ inline Signal autocovariance(const core::FilterBlock& block, std::size_t lags) {
   return r;
 }
 
+/// Of the sum of all blocks, or of the signal in them.
+inline Signal autocovariance(const core::BlockSet& set, std::size_t lags, bool signal) {
+  Signal sum(lags);
+  for (const core::FilterBlock& block : set.all()) {
+    const Signal r = autocovariance(block, lags);
+    for (std::size_t l = 0; l < lags; ++l) sum[l] += (signal ? block.signal : 1.0) * r[l];
+  }
+  return sum;
+}
+
+inline Eigen::MatrixXd covariance(const Signal& r) {
+  const auto n = static_cast<Eigen::Index>(r.size());
+  return Eigen::MatrixXd::NullaryExpr(
+      n, n, [&r](Eigen::Index i, Eigen::Index j) { return r[static_cast<std::size_t>(std::abs(i - j))]; });
+}
+
+/// Of samples: all blocks in white noise.
+inline Eigen::MatrixXd sample_covariance(const core::BlockSet& set, std::size_t samples) {
+  Eigen::MatrixXd C = covariance(autocovariance(set, samples, false));
+  C.diagonal().array() += kBankNoise;
+  return C;
+}
+
 /// E[s | z] and the diagonal of its error's covariance, with s the sum of the signal blocks; and what each sample is beside all others.
 struct Batch {
   Batch(const core::BlockSet& set, const Signal& z) {
     const auto n = static_cast<Eigen::Index>(z.size());
-    Eigen::MatrixXd Cs = Eigen::MatrixXd::Zero(n, n);
-    Eigen::MatrixXd Cz = kBankNoise * Eigen::MatrixXd::Identity(n, n);
-    for (const core::FilterBlock& block : set.all()) {
-      const Signal r = autocovariance(block, z.size());
-      for (Eigen::Index i = 0; i < n; ++i) {
-        for (Eigen::Index j = 0; j < n; ++j) {
-          const double value = r[static_cast<std::size_t>(std::abs(i - j))];
-          Cz(i, j) += value;
-          Cs(i, j) += block.signal * value;
-        }
-      }
-    }
-    const Eigen::LDLT<Eigen::MatrixXd> solver(Cz);
+    const Eigen::MatrixXd Cs = covariance(autocovariance(set, z.size(), true));
+    const Eigen::LDLT<Eigen::MatrixXd> solver(sample_covariance(set, z.size()));
     mean = Cs * solver.solve(Eigen::Map<const Eigen::VectorXd>(z.data(), n));
     variance = (Cs - Cs * solver.solve(Cs)).diagonal();
     const Eigen::MatrixXd precision = solver.solve(Eigen::MatrixXd::Identity(n, n));

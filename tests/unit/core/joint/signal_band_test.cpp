@@ -74,22 +74,12 @@ TEST(SignalBand, IsAsLongAsThereIsRoomForALowLimit) {
 /// E[d[t-age] | z[..t]] and its error's variance, d the low-passed signal: from covariances of s[t-age+j] with all samples, j up to the band's reach,
 /// past the end of the record.
 struct BandBatch {
-  BandBatch(const BlockSet& set, const Signal& z, const SignalBand& band) : set_(set), band_(band) {
-    const std::size_t reach = band.reach();
-    signal_.resize(z.size() + 2 * reach + 1);
-    Signal all(z.size());
-    for (const FilterBlock& block : set.all()) {
-      const Signal r = testing::autocovariance(block, signal_.size());
-      for (std::size_t l = 0; l < signal_.size(); ++l) signal_[l] += block.signal * r[l];
-      for (std::size_t l = 0; l < all.size(); ++l) all[l] += r[l];
-    }
-    const auto n = static_cast<Eigen::Index>(z.size());
-    Eigen::MatrixXd Cz = kBankNoise * Eigen::MatrixXd::Identity(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (Eigen::Index j = 0; j < n; ++j) Cz(i, j) += all[static_cast<std::size_t>(std::abs(i - j))];
-    }
-    solver_.compute(Cz);
-    weighted_ = solver_.solve(Eigen::Map<const Eigen::VectorXd>(z.data(), n));
+  BandBatch(const BlockSet& set, const Signal& z, const SignalBand& band)
+      : band_(band),
+        signal_(testing::autocovariance(set, z.size() + 2 * band.reach() + 1, true)),
+        solver_(testing::sample_covariance(set, z.size())),
+        weighted_(
+            solver_.solve(Eigen::Map<const Eigen::VectorXd>(z.data(), static_cast<Eigen::Index>(z.size())))) {
   }
 
   [[nodiscard]] BankEstimate at(std::size_t age) const {
@@ -108,7 +98,6 @@ struct BandBatch {
   }
 
  private:
-  BlockSet set_;
   SignalBand band_;
   Signal signal_;
   Eigen::LDLT<Eigen::MatrixXd> solver_;
