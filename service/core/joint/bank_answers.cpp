@@ -21,13 +21,17 @@ constexpr double kMostOwn = 0.25;
 
 /// Of x[t - lag], t the newest sample, without the slow correction; from kMaxLag samples after it at the most.
 BankEstimate KalmanBank::combine(std::size_t lag) const noexcept {
-  if (!fitted_) return start_.estimate(lag);
   assert(lag <= kMaxLag || !limited());
-  if (!limited() || count_ <= kMaxLag)
-    return mixture(lag, [&](std::size_t member) { return signal_estimate(member, lag); });
+  if (!fitted_ || !limited() || count_ <= kMaxLag) return combine_signal(lag);
   BankEstimate answer = mixture(lag, [&](std::size_t member) { return band_estimate(member, lag); });
   answer.rate += model_.mean * band_->share_of_members(lag) + band_->settled_part(lag);
   return answer;
+}
+
+/// The same at all frequencies, whatever the band.
+BankEstimate KalmanBank::combine_signal(std::size_t lag) const noexcept {
+  if (!fitted_) return start_.estimate(lag);
+  return mixture(lag, [&](std::size_t member) { return signal_estimate(member, lag); });
 }
 
 /// @param answer of a member
@@ -66,11 +70,7 @@ double KalmanBank::signal_estimate(std::size_t index, std::size_t lag) const noe
 
 /// Hands on what is known by now of the sample kMaxLag ago, which will not be known better.
 void KalmanBank::feed_band() noexcept {
-  if (!band_ || count_ <= kMaxLag) return;
-  const BankEstimate settled =
-      fitted_ ? mixture(kMaxLag, [&](std::size_t member) { return signal_estimate(member, kMaxLag); })
-              : start_.estimate(kMaxLag);
-  band_->feed(settled.rate);
+  if (band_ && count_ > kMaxLag) band_->feed(combine_signal(kMaxLag).rate);
 }
 
 /// A member's part of the low-passed signal, without the mean.

@@ -130,6 +130,7 @@ class KalmanBank {
   }
   template <class Answer>
   [[nodiscard]] BankEstimate mixture(std::size_t lag, const Answer& answer) const noexcept;
+  [[nodiscard]] BankEstimate combine_signal(std::size_t lag) const noexcept;
   void feed_band() noexcept;
   [[nodiscard]] double signal_estimate(std::size_t index, std::size_t lag) const noexcept;
   [[nodiscard]] double band_estimate(std::size_t index, std::size_t lag) const noexcept;
