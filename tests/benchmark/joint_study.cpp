@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <map>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -81,7 +82,7 @@ void begin_at(test::DriveRow& row, double begin_s) {
   row.noisy_dps.erase(row.noisy_dps.begin(), row.noisy_dps.begin() + static_cast<std::ptrdiff_t>(samples));
 }
 
-void print(const char* what, const test::ByLag& values, int digits) {
+void print_cells(const char* what, const test::ByLag& values, int digits) {
   std::printf("%s", what);
   for (const double value : values) std::printf(" %5.*f", digits, value);
 }
@@ -96,20 +97,69 @@ std::vector<test::DriveRow> rows_of(const std::string& motion, const test::Noise
   throw std::runtime_error("motion=" + motion + ": expected car, hand, shaking, smooth or simulated");
 }
 
+/// Of all rows so far.
+class Totals {
+ public:
+  /// Prints the row's RMSE in parts of the tuned Butterworths'.
+  void compare_rivals(const test::DriveRow& row, const test::JointSetting& setting,
+                      const test::JointFigures& figures, int digits) {
+    auto ratios = test::best_butterworth(row, setting);
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      ratios[i] = figures.rmse[i] / ratios[i];
+      worst_rival_ = std::max(worst_rival_, ratios[i]);
+    }
+    print_cells(" |", ratios, digits);
+  }
+  /// And of the prototype's, where it knew the row.
+  void compare_prototype(const test::DriveRow& row, const test::JointFigures& figures) {
+    const test::PrototypeRow* prototype = test::prototype_of(row);
+    for (std::size_t i = 0; prototype != nullptr && i < 3; ++i) {
+      const double ratio = figures.rmse[test::PrototypeRow::kLagIndex[i]] / prototype->rmse[i];
+      worst_prototype_ = std::max(worst_prototype_, ratio);
+      logarithms_ += std::log(ratio);
+      ++cells_;
+      std::printf(" %5.3f", ratio);
+    }
+  }
+  void count_gains(const test::DriveRow& row, const test::JointFigures& figures) {
+    Gains& gains = gains_[row.noise_scale];
+    ++gains.rows;
+    if (test::fails(figures.gain[0])) ++gains.off_at_once;
+    if (test::fails(figures.gain[1])) ++gains.off;
+  }
+  void print() const {
+    std::printf("worst of Butterworth's %.3f, of the prototype's %.3f; geometric mean of the latter %.4f\n",
+                worst_rival_, worst_prototype_,
+                cells_ > 0 ? std::exp(logarithms_ / static_cast<double>(cells_)) : 0.0);
+    for (const auto& [scale, gains] : gains_)
+      std::printf("slow gain surely off by more than 0.005, noise x %g: lag 0 %zu, 16 %zu of %zu\n", scale,
+                  gains.off_at_once, gains.off, gains.rows);
+  }
+
+ private:
+  struct Gains {
+    std::size_t rows = 0;
+    std::size_t off_at_once = 0;
+    std::size_t off = 0;
+  };
+  double worst_rival_ = 0.0;
+  double worst_prototype_ = 0.0;
+  double logarithms_ = 0.0;
+  std::size_t cells_ = 0;
+  std::map<double, Gains> gains_;  ///< by the noise's scale
+};
+
 int study(const Arguments& arguments) {
   std::printf("%-12s %41s", "row", "RMSE at lag 0, 4, 8, 12, 16, 32");
   std::printf(" | of Butterworth's | of the prototype's 0, 8, 16 | NEE, NIS, alarm | slow gain 0, 16\n");
   const bool rivals = number(arguments, "rivals", 1) != 0.0;
-  double worst_rival = 0.0;
-  double worst_prototype = 0.0;
-  double sum = 0.0;
-  std::size_t cells = 0;
   const auto digits = static_cast<int>(number(arguments, "digits", 3));
   const auto axes = arguments.find("axes");
   const auto found = arguments.find("motion");
   const std::string motion = found == arguments.end() ? "car" : found->second;
   const auto choice = noise_choice(arguments);
   const test::JointSetting setting = setting_of(arguments);
+  Totals totals;
   for (auto& row : rows_of(motion, choice, number(arguments, "shaking_from", 30))) {
     if (axes != arguments.end() && axes->second.find("xyz"[row.axis]) == std::string::npos) continue;
     add_spikes(row, number(arguments, "spikes", 0));
@@ -121,30 +171,16 @@ int study(const Arguments& arguments) {
     if (setting.max_signal_hz > 0.0) test::limit(row, setting.max_signal_hz);
     const test::JointFigures figures = test::joint_figures(row, noise, setting);
     std::printf("%-12s ", row.name.c_str());
-    print("", figures.rmse, digits);
-    if (rivals) {
-      auto ratios = test::best_butterworth(row, setting);
-      for (std::size_t i = 0; i < ratios.size(); ++i) {
-        ratios[i] = figures.rmse[i] / ratios[i];
-        worst_rival = std::max(worst_rival, ratios[i]);
-      }
-      print(" |", ratios, digits);
-    }
+    print_cells("", figures.rmse, digits);
+    if (rivals) totals.compare_rivals(row, setting, figures, digits);
     std::printf(" |");
-    const test::PrototypeRow* prototype = test::prototype_of(row);
-    for (std::size_t i = 0; prototype != nullptr && i < 3; ++i) {
-      const double ratio = figures.rmse[test::PrototypeRow::kLagIndex[i]] / prototype->rmse[i];
-      worst_prototype = std::max(worst_prototype, ratio);
-      sum += std::log(ratio);
-      ++cells;
-      std::printf(" %5.3f", ratio);
-    }
+    totals.compare_prototype(row, figures);
     std::printf(" | %4.2f %4.2f %4.2f | %5.3f %5.3f\n", figures.normalised_error, figures.innovation,
-                figures.alarm, figures.gain[0], figures.gain[1]);
+                figures.alarm, figures.gain[0].value, figures.gain[1].value);
     std::fflush(stdout);
+    totals.count_gains(row, figures);
   }
-  std::printf("worst of Butterworth's %.3f, of the prototype's %.3f; geometric mean of the latter %.4f\n",
-              worst_rival, worst_prototype, cells > 0 ? std::exp(sum / static_cast<double>(cells)) : 0.0);
+  totals.print();
   return 0;
 }
 

@@ -72,11 +72,11 @@ struct JointSetting {
 };
 
 struct JointFigures {
-  ByLag rmse{};                   ///< deg/s
-  double normalised_error = 0.0;  ///< mean of error^2 / published variance, lag 16
-  double innovation = 0.0;        ///< mean of nu^2 / S
-  double alarm = 0.0;             ///< part of the windows whose noise is said to be wrong
-  std::array<double, 2> gain{};   ///< of slow motion, as the guard scale-factor has it, lag 0 and 16
+  ByLag rmse{};                          ///< deg/s
+  double normalised_error = 0.0;         ///< mean of error^2 / published variance, lag 16
+  double innovation = 0.0;               ///< mean of nu^2 / S
+  double alarm = 0.0;                    ///< part of the windows whose noise is said to be wrong
+  std::array<core::Measured, 2> gain{};  ///< of slow motion, as the guard scale-factor has it, lag 0 and 16
 };
 
 /// What the learner makes of the first minute of the row's noise at rest; (deg/s)^2.
@@ -201,7 +201,7 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
   figures.normalised_error /= count;
   figures.innovation /= count;
   figures.alarm /= windows;
-  figures.gain = {gains[0].value(), gains[1].value()};
+  figures.gain = {gains[0].gain(), gains[1].gain()};
   return figures;
 }
 

@@ -91,10 +91,10 @@ Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& 
   return guard;
 }
 
-/// Means over one second each; NaN where a sample is not known.
-std::vector<double> second_means(std::span<const double> x, std::size_t second) {
+/// Means over one second each, which begin `step` samples apart; NaN where a sample is not known.
+std::vector<double> second_means(std::span<const double> x, std::size_t second, std::size_t step) {
   std::vector<double> means;
-  for (std::size_t begin = 0; begin + second <= x.size(); begin += second) {
+  for (std::size_t begin = 0; begin + second <= x.size(); begin += step) {
     double sum = 0.0;
     for (const double value : x.subspan(begin, second)) sum += value;
     means.push_back(sum / static_cast<double>(second));
@@ -102,12 +102,16 @@ std::vector<double> second_means(std::span<const double> x, std::size_t second) 
   return means;
 }
 
-/// What the estimator took away is regressed on the truth: slow noise, which it leaves, is then no part of the uncertainty.
+/// What the estimator took away is regressed on the truth: slow noise, which it leaves, is then no part of the uncertainty. The means overlap: what is
+/// faster than a second is in each of them by chance, as its phase falls, and ten of a second see ten phases.
 Guard scale_factor(const Contender& plain, const GuardCase& on, double limit) {
+  constexpr std::size_t kMeansPerSecond = 10;
+  const std::size_t second = second_of(on);
+  const std::size_t step = std::max<std::size_t>(second / kMeansPerSecond, 1);
   const std::size_t end = std::min(on.range.end, on.truth_dps.size());
-  const auto truth = second_means(on.truth_dps.subspan(on.range.begin, end - on.range.begin), second_of(on));
-  const auto taken = second_means(difference(plain.estimate, on.noisy_dps, on.range), second_of(on));
-  const auto slope = batch_slope(truth, taken, kBatchSeconds);
+  const auto truth = second_means(on.truth_dps.subspan(on.range.begin, end - on.range.begin), second, step);
+  const auto taken = second_means(difference(plain.estimate, on.noisy_dps, on.range), second, step);
+  const auto slope = batch_slope(truth, taken, kBatchSeconds * second / step);
   if (!slope) return not_applicable(GuardKind::kScaleFactor, limit, "less than 20 s of motion are known");
   return uncertain_guard(GuardKind::kScaleFactor, *slope, 1.0, limit, "too little slow motion to tell");
 }

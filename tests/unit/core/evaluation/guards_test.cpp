@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -66,6 +67,27 @@ TEST(Guards, FailOneThatShrinksByThreePercent) {
     EXPECT_EQ(guard.verdict, Verdict::kFail) << name_of(kind);
     EXPECT_NEAR(*guard.value, 0.97, 0.003) << name_of(kind);
   }
+}
+
+// Half of 20 deg/s at 1.5 Hz is lost. A mean over a second has (2 / 3 pi)^2 / 2 of its square, whatever the phase, beside nearly all of 8 deg/s at
+// 0.13 Hz: sinc^2 of either. Means of seconds that follow each other would all have the same phase, and twice as much of it.
+TEST(Guards, SeeMotionFasterThanASecondAtAllPhases) {
+  Drive drive;
+  const auto swing = test::tone(18'000, 0.015, 20.0);
+  drive.truth = test::sum_of(drive.truth, swing);
+  drive.noisy = test::sum_of(drive.noisy, swing);
+  const Method method = method_with([&swing](std::vector<double>& x) {
+    for (std::size_t t = 0; t < x.size(); ++t) x[t] -= 0.5 * swing[t];
+  });
+  const auto all = guards(method, method.run(drive.noisy), drive.guard_case());
+  const auto power = [](double amplitude, double cycles) {
+    const double angle = std::numbers::pi * cycles;
+    return 0.5 * std::pow(amplitude * std::sin(angle) / angle, 2);
+  };
+  const double fast = power(20.0, 1.5);
+  const double expected = 1.0 - 0.5 * fast / (fast + power(8.0, 0.13) + power(2.0, 1.01));
+  EXPECT_NEAR(std::ranges::find(all, GuardKind::kScaleFactor, &Guard::kind)->value.value_or(0.0), expected,
+              0.01);
 }
 
 TEST(Guards, FailOneThatIsLateByASample) {
