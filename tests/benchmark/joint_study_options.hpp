@@ -80,7 +80,6 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("residual_decay", options.residual_decay);
   set("steady_memory", options.steady_memory);
   set("most_gain", options.most_gain);
-  set("gain_doubt", options.gain_doubt);
   set("gain_ridge", options.gain_ridge);
   set("gain_clip", options.gain_clip);
   set("gain_band", options.gain_band);
@@ -89,9 +88,7 @@ inline core::JointOptions options_of(const Arguments& arguments) {
   set("gain_memory", options.gain_memory);
   set("most_later_gain", options.most_later_gain);
   set("most_later_loss", options.most_later_loss);
-  set("later_band", options.later_band);
   set("later_follow", options.later_follow);
-  set("later_mean", options.later_mean);
   set("later_memory", options.later_memory);
   set("residual_limit", options.residual_limit);
   set("residual_mean_limit", options.residual_mean_limit);

@@ -8,14 +8,14 @@ namespace gyrod::core {
 double GainCorrection::apply(double sample, double answer, double noise_variance, const JointOptions& options,
                              const JointScale& scale) noexcept {
   paid_ = 0.0;
-  const double mean = scale.memory(options.gain_mean);
-  const double band = scale.memory(options.gain_band);
+  const double mean = scale.duration(options.gain_mean);
+  const double band = scale.duration(options.gain_band);
   if (!begun_) answers_.begin(answer);
   begun_ = true;
   const double moved = answers_.follow(answer, mean, band);
   residuals_.follow(sample - answer, mean, band);
-  following_ += (moved - following_) / scale.memory(options.gain_follow);
-  const double memory = scale.memory(options.gain_memory);
+  following_ += (moved - following_) / scale.duration(options.gain_follow);
+  const double memory = scale.duration(options.gain_memory);
   power_ += (answers_.slow() * answers_.slow() - power_) / memory;
   covariance_ += (answers_.slow() * residuals_.slow() - covariance_) / memory;
   const double full = power_ + options.gain_ridge * noise_variance;
@@ -27,8 +27,7 @@ double GainCorrection::apply(double sample, double answer, double noise_variance
   const double missing =
       std::max(0.0, options.most_gain - std::abs(covariance_ / power_ - options.most_gain));
   const double bound = options.gain_clip * std::sqrt(power_);
-  const double surely = missing > 0.0 ? missing * missing / (missing + options.gain_doubt) : 0.0;
-  paid_ = surely * (power_ / full) * std::clamp(following_, -bound, bound);
+  paid_ = missing * (power_ / full) * std::clamp(following_, -bound, bound);
   return answer + paid_;
 }
 

@@ -23,6 +23,7 @@ JointScale::JointScale(double sample_rate_hz, std::size_t window_samples) noexce
     ratio = std::ldexp(1.0, octaves);
     for (int k = kStepsPerOctave * octaves; k < steps; ++k) ratio *= step;
   }
+  rate_ = ratio;
   faster_ = std::max(ratio, 1.0);
   const double window = static_cast<double>(kDesignWindowSamples) / static_cast<double>(window_samples);
   shorter_ = std::max(ratio * window, 1.0);

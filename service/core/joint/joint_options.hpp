@@ -1,6 +1,7 @@
 /// The numbers of the two-speed estimator, and its limits.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/emd/emd.hpp"
@@ -155,27 +156,23 @@ struct JointOptions {
   double steady_memory = 2048.0;
   /// What answers with look-ahead lack of slow motion in size shows in what they leave of the samples, and is added, up to this part of them.
   /// Range 0..0.5.
-  double most_gain = 0.1;
-  /// Of that so much may be chance: what is this much counts half. Range 0..1.
-  double gain_doubt = 0.01;
+  double most_gain = 0.3;
   /// The noise of the samples counts this much of its variance against it, where slow motion is small. Range 0..1e6.
   double gain_ridge = 0.015;
   /// What is added is bounded to this many standard deviations of slow motion. Range 0..1e6.
   double gain_clip = 3.0;
-  /// Samples: of the low-passes that make motion slow (24: below some 0.5 Hz), of the one of what is added (3: with it, a swing of 1 Hz, too), of the
-  /// mean that is left as it is, and of what is learned. Range 1..1e9.
+  /// Samples at the design's rate, at any other the same seconds: of the low-passes that make motion slow (24: below some 0.5 Hz), of the one of what is
+  /// added (3: with it, a swing of 1 Hz, too), of the mean that is left as it is, and of what is learned. Range 1..1e9.
   double gain_band = 24.0;
   double gain_follow = 3.0;
   double gain_mean = 512.0;
   double gain_memory = 4096.0;
-  /// Answers at once are compared with later ones, and made larger by this part of slow motion at the most, or smaller by that (LaterGain). Range 0..1; 0..1.
+  /// Answers at once are compared with later ones in the same band, and made larger by this part of slow motion at the most, or smaller by that
+  /// (LaterGain). Range 0..1; 0..1.
   double most_later_gain = 0.2;
   double most_later_loss = 0.05;
-  /// Samples: of the low-passes that make motion slow (12: below some 1 Hz), of the one of what is added, of the mean that is left as it is, and of what is
-  /// learned. Range 1..1e9.
-  double later_band = 12.0;
+  /// Likewise: of the low-pass of what is added, and of what is learned. Range 1..1e9.
   double later_follow = 8.0;
-  double later_mean = 256.0;
   double later_memory = 2048.0;
   /// What an estimate takes off the samples is noise, up to this many times its variance in one sample, and this many in the mean of late; what
   /// is more goes back. Range 1..1e12.
@@ -217,6 +214,8 @@ class JointScale {
   [[nodiscard]] double forgetting(double share) const noexcept { return share / shorter_; }
   /// samples * faster: the same seconds.
   [[nodiscard]] double memory(double samples) const noexcept { return samples * faster_; }
+  /// The same seconds at lower rates, too; at least one sample.
+  [[nodiscard]] double duration(double samples) const noexcept { return std::max(samples * rate_, 1.0); }
   /// rate / faster: of what is owed the same part in the same seconds.
   [[nodiscard]] double most_correction(double rate) const noexcept { return rate / faster_; }
   /// rate * fewer / faster, at most 0.1: the same seconds; and it makes up for the window's mean, which wanders faster in a shorter window.
@@ -225,7 +224,8 @@ class JointScale {
   friend bool operator==(const JointScale&, const JointScale&) = default;
 
  private:
-  double faster_ = 1.0;   ///< sample rate in parts of the design's, at least 1
+  double rate_ = 1.0;     ///< sample rate in parts of the design's
+  double faster_ = 1.0;   ///< the same, at least 1
   double shorter_ = 1.0;  ///< the design's window in parts of this one, in seconds, at least 1
   double fewer_ = 1.0;    ///< the same in samples
 };

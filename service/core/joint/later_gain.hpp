@@ -8,12 +8,12 @@ namespace gyrod::core {
 
 /// An answer with look-ahead knows the size of slow motion better than one at once, and comes a fraction of a second later: on a road the one at once
 /// stays behind it by some per cent, after a slow correction it may be beyond it. So the two answers of one sample are compared, and those at once
-/// are from then on made larger or smaller by what they differ. With low(x, T) the low-pass y <- y + (x - y) / T, and m(x) = x - low(x, later_mean):
-///   p = low(low(m(later), later_band), later_band),   d the same of later - at once,
+/// are from then on made larger or smaller by what they differ. With low(x, T) the low-pass y <- y + (x - y) / T, and m(x) = x - low(x, gain_mean):
+///   p = low(low(m(later), gain_band), gain_band),   d the same of later - at once,
 ///   A = low(p^2, later_memory),   C = low(p d, later_memory),   A and C from 0 on,
-///   q = C / A,   k = q |q| / (|q| + gain_doubt), between -most_later_loss and most_later_gain,
+///   k = C / A, between -most_later_loss and most_later_gain,
 ///   out = answer + k A / (A + gain_ridge R) clamp(low(m(answer), later_follow), -gain_clip sqrt(A), gain_clip sqrt(A)),
-/// times in samples at the model's scale, R the variance of the samples' noise. The answers that are compared are those before this, so that what is
+/// times in seconds, as the model's scale has it, R the variance of the samples' noise. The answers that are compared are those before this, so that what is
 /// learned does not depend on what it does.
 /// A plain value; finite for finite arguments.
 class LaterGain {

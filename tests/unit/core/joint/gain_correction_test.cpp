@@ -54,13 +54,10 @@ double follows() {
   return ((1.0 - low_pass(options.gain_mean)) * low_pass(options.gain_follow)).real();
 }
 
-/// What counts of a part that is missing.
-double surely(double missing) { return missing * missing / (missing + JointOptions{}.gain_doubt); }
-
 TEST(GainCorrection, GivesASwingTheSizeThatTheSamplesSay) {
   Swinging swinging;
-  EXPECT_NEAR(swinging.share(), surely((1.0 - 0.94) / 0.94) * follows(), 1e-6);
-  EXPECT_NEAR(0.94 * (1.0 + swinging.share()), 1.0, 0.01);
+  EXPECT_NEAR(swinging.share(), (1.0 - 0.94) / 0.94 * follows(), 1e-6);
+  EXPECT_NEAR(0.94 * (1.0 + swinging.share()), 1.0, 0.005);
 }
 
 TEST(GainCorrection, TakesAwayNothingWhereTheAnswerIsTooLarge) {
@@ -68,13 +65,13 @@ TEST(GainCorrection, TakesAwayNothingWhereTheAnswerIsTooLarge) {
   EXPECT_EQ(swinging.share(), 0.0);
 }
 
-// 0.15 is as far above the most, 0.1, as 0.05 is below it; from 0.2 on it is noise that the answer has left.
+// 0.45 is as far above the most, 0.3, as 0.15 is below it; from 0.6 on it is noise that the answer has left.
 TEST(GainCorrection, IsLessSureTheMoreIsMissing) {
-  Swinging much{.gain = 1.0 / 1.15};
-  EXPECT_NEAR(much.share(), surely(0.05) * follows(), 1e-6);
-  Swinging most{.gain = 1.0 / 1.1};
-  EXPECT_NEAR(most.share(), surely(0.1) * follows(), 1e-6);
-  Swinging noise{.gain = 0.1};
+  Swinging much{.gain = 1.0 / 1.45};
+  EXPECT_NEAR(much.share(), 0.15 * follows(), 1e-6);
+  Swinging most{.gain = 1.0 / 1.3};
+  EXPECT_NEAR(most.share(), 0.3 * follows(), 1e-6);
+  Swinging noise{.gain = 0.6};
   EXPECT_EQ(noise.share(), 0.0);
 }
 
@@ -119,18 +116,18 @@ TEST(GainCorrection, AddsNextToNothingToATurn) {
 }
 
 TEST(GainCorrection, KeepsItsTimesInSeconds) {
-  JointOptions longer;
-  longer.gain_band *= 4.0;
-  longer.gain_follow *= 4.0;
-  longer.gain_mean *= 4.0;
-  longer.gain_memory *= 4.0;
-  GainCorrection scaled;
-  GainCorrection expected;
-  for (int n = 0; n < 2000; ++n) {
-    EXPECT_EQ(scaled.apply(swing(n), 0.94 * swing(n), 1.0, JointOptions{}, JointScale(480.0, 1024)),
-              expected.apply(swing(n), 0.94 * swing(n), 1.0, longer, JointScale{}));
+  for (const double rate_hz : {480.0, 60.0}) {
+    JointOptions here;
+    for (double* samples : {&here.gain_band, &here.gain_follow, &here.gain_mean, &here.gain_memory})
+      *samples *= rate_hz / core::kDesignRateHz;
+    GainCorrection scaled;
+    GainCorrection expected;
+    for (int n = 0; n < 2000; ++n) {
+      EXPECT_EQ(scaled.apply(swing(n), 0.94 * swing(n), 1.0, JointOptions{}, JointScale(rate_hz, 1024)),
+                expected.apply(swing(n), 0.94 * swing(n), 1.0, here, JointScale{}));
+    }
+    EXPECT_NE(scaled.paid(), 0.0);
   }
-  EXPECT_NE(scaled.paid(), 0.0);
 }
 
 // What leaves the numbers is forgotten, and the correction begins anew.
@@ -143,7 +140,7 @@ TEST(GainCorrection, IsFiniteAndGoesOnAfterTheLargestNumbers) {
     EXPECT_EQ(swinging.correction.apply(huge, 0.5 * huge, 0.1, swinging.options, JointScale{}), 0.5 * huge);
   }
   swinging.n = 0;
-  EXPECT_NEAR(swinging.share(), surely((1.0 - 0.94) / 0.94) * follows(), 1e-4);
+  EXPECT_NEAR(swinging.share(), (1.0 - 0.94) / 0.94 * follows(), 1e-4);
 }
 
 }  // namespace

@@ -26,9 +26,19 @@ TEST(JointScale, LeavesAllAsItIsAtTheDesignAndWhereTheRateIsUnknown) {
 }
 
 TEST(JointScale, LeavesSlowSensorsAndLongWindowsAsTheyAre) {
-  EXPECT_EQ(JointScale(50.0, kDesignWindowSamples), JointScale());
-  EXPECT_EQ(JointScale(100.0, kDesignWindowSamples), JointScale());
   EXPECT_EQ(JointScale(120.0, 2 * kDesignWindowSamples), JointScale());
+  const JointScale slow(60.0, kDesignWindowSamples);
+  EXPECT_EQ(slow.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
+  EXPECT_EQ(slow.recency(kOptions.recency), kOptions.recency);
+  EXPECT_EQ(slow.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
+  EXPECT_EQ(slow.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
+  EXPECT_EQ(slow.memory(kOptions.steady_memory), kOptions.steady_memory);
+}
+
+TEST(JointScale, DurationsAreTheSameSecondsAtEveryRate) {
+  EXPECT_EQ(JointScale(60.0, kDesignWindowSamples).duration(512.0), 256.0);
+  EXPECT_EQ(JointScale(480.0, kDesignWindowSamples).duration(512.0), 2048.0);
+  EXPECT_EQ(JointScale(60.0, kDesignWindowSamples).duration(1.5), 1.0);
 }
 
 // Quarters of an octave from 120 Hz on: 200 Hz is 120 * 2^(3/4) = 201.8 Hz.

@@ -262,10 +262,9 @@ TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
   options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
   options.most_steady_correction = scaled.scale.most_correction(options.most_steady_correction);
   options.most_late_steady_correction = scaled.scale.most_correction(options.most_late_steady_correction);
-  for (double* samples :
-       {&options.steady_memory, &options.motion_mean, &options.motion_memory, &options.gain_band,
-        &options.gain_follow, &options.gain_mean, &options.gain_memory, &options.later_band,
-        &options.later_follow, &options.later_mean, &options.later_memory})
+  for (double* samples : {&options.steady_memory, &options.motion_mean, &options.motion_memory,
+                          &options.gain_band, &options.gain_follow, &options.gain_mean, &options.gain_memory,
+                          &options.later_follow, &options.later_memory})
     *samples = scaled.scale.memory(*samples);
   KalmanBank expected(options, 16);
   expected.use(model);
