@@ -6,7 +6,7 @@
 namespace gyrod::core {
 namespace {
 
-/// Largest rate that a large variance asks for: ten samples.
+/// Largest rate that a large variance asks for, at the design's sample rate: ten samples.
 constexpr double kMostCorrection = 0.1;
 /// What the estimate's variance may count for, in parts of the noise's.
 constexpr double kMostRatio = 1e6;
@@ -24,7 +24,7 @@ double SlowCorrection::apply(double sample, double estimate, const Trust& trust,
   const double rate =
       std::max({scale.correction_rate(options.correction_rate) *
                     std::lerp(options.still_correction, 1.0, moving(trust, options.motion_high, options)),
-                std::min(options.correction_share * now, kMostCorrection),
+                scale.most_correction(std::min(options.correction_share * now, kMostCorrection)),
                 steady_rate(trust, options, scale, !newer.empty())});
   const double kept = std::max(1.0 - options.residual_decay * rate, 0.0);
   double weight = options.residual_weight;

@@ -19,7 +19,7 @@ struct Trust {
 
 /// Of one output. It makes of an estimate e and the sample z that it is of the answer
 ///   out = e + c (owed + z - e + residual_weight sum_k (1 - residual_decay c)^k d_k),   owed <- owed + z - out,
-///   c = max(correction_rate (still_correction + (1 - still_correction) moving(motion_high)), correction_share now,
+///   c = max(correction_rate (still_correction + (1 - still_correction) moving(motion_high)), correction_share now (0.1 at the most),
 ///           min(steady_correction s^3 b, most_steady_correction) moving(motion_steady)),
 ///   moving(high) = (motion - motion_low) / (high - motion_low), between 0 and 1,
 ///   s <- min(settled, s + (settled - s) / steady_memory),   b = settled / expected max(1, now / expected),

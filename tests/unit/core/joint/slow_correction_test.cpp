@@ -178,6 +178,17 @@ TEST(SlowCorrection, GivesBackNothingWhereNothingSlowMoves) {
   }
 }
 
+// At four times the design's sample rate a quarter in each sample: 0.01 for 0.04, 0.025 for 0.1 at the most.
+TEST(SlowCorrection, IsNoFasterInASecondWhereSamplesComeFaster) {
+  JointOptions options = at_one_rate();
+  options.correction_share = 0.04;
+  for (const auto& [now, rate] : {std::array{1.0, 0.01}, std::array{2.0, 0.02}, std::array{1e300, 0.025}}) {
+    SlowCorrection correction;
+    EXPECT_NEAR(correction.apply(1.0, 0.0, Trust{.now = now}, options, JointScale(480.0, 1024)), rate, 1e-15)
+        << now;
+  }
+}
+
 // The most that is given back is a part of what is owed in a time, not in a sample.
 TEST(SlowCorrection, GivesBackNoMoreInASecondWhereSamplesComeFaster) {
   const JointOptions options = at_most_steady();
