@@ -79,41 +79,25 @@ void all_rows(const std::vector<gyrod::test::DriveRow>& rows) {
 }
 
 /// All causal linear filters of some samples on a row: their error is a quadratic form in the weights, and their scale factor, as the guard has it
-/// (one less the slope of the means over 1 s of what is taken away on those of the truth), is linear in them.
+/// (one less the slope of the means over 1 s, ten a second, of what is taken away on those of the truth), is linear in them.
 class LinearFilters {
  public:
-  /// Where the truth was lost for a sample, nothing is known of its second.
   explicit LinearFilters(const gyrod::test::DriveRow& row) {
-    const auto second = static_cast<std::size_t>(std::lround(row.rate_hz));
-    std::vector<std::size_t> seconds;
-    for (std::size_t begin = gyrod::test::kJudgedBegin; begin + second <= gyrod::test::kJudgedEnd;
-         begin += second) {
-      const auto of_second = std::span(row.truth_dps).subspan(begin, second);
-      if (std::ranges::all_of(of_second, [](double value) { return std::isfinite(value); }))
-        seconds.push_back(begin);
+    std::size_t known = 0;
+    for (std::size_t now = gyrod::test::kJudgedBegin; now < gyrod::test::kJudgedEnd; ++now) {
+      const double truth = row.truth_dps[now];
+      if (!std::isfinite(truth)) continue;
+      const Eigen::VectorXd delayed = delayed_to(now, row.noisy_dps);
+      power_.noalias() += delayed * delayed.transpose();
+      shared_ += truth * delayed;
+      truth_power_ += truth * truth;
+      ++known;
     }
-    const auto length = static_cast<Eigen::Index>(second);
-    const auto count = static_cast<Eigen::Index>(seconds.size());
-    Eigen::VectorXd truth(count * length);
-    Eigen::MatrixXd delayed(count * length, kTaps);
-    Eigen::VectorXd truth_means(count);
-    Eigen::MatrixXd means(count, kTaps);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      for (Eigen::Index t = 0; t < length; ++t) {
-        const std::size_t now = seconds[static_cast<std::size_t>(i)] + static_cast<std::size_t>(t);
-        truth(i * length + t) = row.truth_dps[now];
-        for (Eigen::Index k = 0; k < kTaps; ++k)
-          delayed(i * length + t, k) = row.noisy_dps[now - static_cast<std::size_t>(k)];
-      }
-      truth_means(i) = truth.segment(i * length, length).mean();
-      means.row(i) = delayed.middleRows(i * length, length).colwise().mean();
-    }
-    const auto samples = static_cast<double>(truth.size());
-    power_ = delayed.transpose() * delayed / samples;
-    shared_ = delayed.transpose() * truth / samples;
-    truth_power_ = truth.squaredNorm() / samples;
-    truth_means.array() -= truth_means.mean();
-    slopes_ = means.transpose() * truth_means / truth_means.squaredNorm();
+    const auto samples = static_cast<double>(known);
+    power_ /= samples;
+    shared_ /= samples;
+    truth_power_ /= samples;
+    set_slopes(row);
   }
 
   [[nodiscard]] Eigen::VectorXd best() const { return power_.ldlt().solve(shared_); }
@@ -132,10 +116,40 @@ class LinearFilters {
 
  private:
   static constexpr Eigen::Index kTaps = 96;
-  Eigen::MatrixXd power_;
-  Eigen::VectorXd shared_;
+
+  /// x[now], x[now - 1], ...
+  static Eigen::VectorXd delayed_to(std::size_t now, const std::vector<double>& x) {
+    Eigen::VectorXd delayed(kTaps);
+    for (Eigen::Index k = 0; k < kTaps; ++k) delayed(k) = x[now - static_cast<std::size_t>(k)];
+    return delayed;
+  }
+  /// Where the truth was lost for a sample, nothing is known of the seconds that hold it.
+  void set_slopes(const gyrod::test::DriveRow& row) {
+    const auto second = static_cast<std::size_t>(std::lround(row.rate_hz));
+    std::vector<double> truths;
+    std::vector<Eigen::VectorXd> means;
+    for (std::size_t begin = gyrod::test::kJudgedBegin; begin + second <= gyrod::test::kJudgedEnd;
+         begin += second / 10) {
+      double truth = 0.0;
+      Eigen::VectorXd delayed = Eigen::VectorXd::Zero(kTaps);
+      for (std::size_t now = begin; now < begin + second; ++now) {
+        truth += row.truth_dps[now] / static_cast<double>(second);
+        delayed += delayed_to(now, row.noisy_dps) / static_cast<double>(second);
+      }
+      if (!std::isfinite(truth)) continue;
+      truths.push_back(truth);
+      means.push_back(delayed);
+    }
+    Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(truths.data(), std::ssize(truths));
+    moved.array() -= moved.mean();
+    for (std::size_t i = 0; i < means.size(); ++i)
+      slopes_ += moved(static_cast<Eigen::Index>(i)) / moved.squaredNorm() * means[i];
+  }
+
+  Eigen::MatrixXd power_ = Eigen::MatrixXd::Zero(kTaps, kTaps);
+  Eigen::VectorXd shared_ = Eigen::VectorXd::Zero(kTaps);
   double truth_power_ = 0.0;
-  Eigen::VectorXd slopes_;  ///< of the delayed samples' means on the truth's
+  Eigen::VectorXd slopes_ = Eigen::VectorXd::Zero(kTaps);  ///< of the delayed samples' means on the truth's
 };
 
 void scale_factor_rows(const std::vector<gyrod::test::DriveRow>& rows) {

@@ -185,10 +185,10 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
       const core::BankEstimate& estimate = estimates[i];
       const std::size_t lag = kJointLags[i];
       if (t < begin + lag || t >= end + lag) continue;
-      const double error = estimate.rate - row.truth_dps[t - lag];
-      if (std::isnan(error)) continue;
       if (lag == 0 || lag == 16)
         gains[lag / 16].add(row.truth_dps[t - lag], estimate.rate - row.noisy_dps[t - lag]);
+      const double error = estimate.rate - row.truth_dps[t - lag];
+      if (std::isnan(error)) continue;
       figures.rmse[i] += error * error;
       if (lag != 16) continue;
       ++judged;

@@ -17,8 +17,6 @@ constexpr double kVibrationDps = 1.0;
 constexpr double kVibrationHz = 27.0;
 /// Up to this part of the signal band's end its low-pass passes everything.
 constexpr double kWithinBand = 0.9;
-/// Of the jackknife's batches: longer than the memory of what estimators miss of slow motion.
-constexpr std::size_t kBatchSeconds = 10;
 
 constexpr std::array<std::string_view, 9> kNames = {"mean-preserved",  "slow-turn-gain", "swing-gain",
                                                     "scale-factor",    "seam-roughness", "seam-outliers",
@@ -56,10 +54,10 @@ Guard mean_preserved(const Contender& plain, const GuardCase& on, double limit) 
 /// @param expected what the guard's value is where nothing deviates
 Guard uncertain_guard(GuardKind kind, const Measured& deviation, double expected, double limit,
                       std::string reason) {
-  const double error = 2.0 * deviation.standard_error;
-  const double size = std::abs(deviation.value);
-  Guard guard{kind, verdict(size <= limit), expected + deviation.value, deviation.standard_error, limit, ""};
-  if (error > limit && !(size - error > limit)) {
+  const auto known = within(deviation, limit);
+  Guard guard{
+      kind, verdict(known.value_or(false)), expected + deviation.value, deviation.standard_error, limit, ""};
+  if (!known) {
     guard.verdict = Verdict::kNotApplicable;
     guard.reason = std::move(reason);
   }
@@ -91,28 +89,12 @@ Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& 
   return guard;
 }
 
-/// Means over one second each, which begin `step` samples apart; NaN where a sample is not known.
-std::vector<double> second_means(std::span<const double> x, std::size_t second, std::size_t step) {
-  std::vector<double> means;
-  for (std::size_t begin = 0; begin + second <= x.size(); begin += step) {
-    double sum = 0.0;
-    for (const double value : x.subspan(begin, second)) sum += value;
-    means.push_back(sum / static_cast<double>(second));
-  }
-  return means;
-}
-
-/// What the estimator took away is regressed on the truth: slow noise, which it leaves, is then no part of the uncertainty. The means overlap: what is
-/// faster than a second is in each of them by chance, as its phase falls, and ten of a second see ten phases.
+/// What the estimator took away is regressed on the truth: slow noise, which it leaves, is then no part of the uncertainty.
 Guard scale_factor(const Contender& plain, const GuardCase& on, double limit) {
-  constexpr std::size_t kMeansPerSecond = 10;
-  const std::size_t second = second_of(on);
-  const std::size_t step = std::max<std::size_t>(second / kMeansPerSecond, 1);
-  const std::size_t end = std::min(on.range.end, on.truth_dps.size());
-  const auto truth = second_means(on.truth_dps.subspan(on.range.begin, end - on.range.begin), second, step);
-  const auto taken = second_means(difference(plain.estimate, on.noisy_dps, on.range), second, step);
-  const auto slope = batch_slope(truth, taken, kBatchSeconds * second / step);
-  if (!slope) return not_applicable(GuardKind::kScaleFactor, limit, "less than 20 s of motion are known");
+  const auto taken = difference(plain.estimate, on.noisy_dps, on.range);
+  const auto slope = slow_slope(on.truth_dps.subspan(on.range.begin, taken.size()), taken, on.rate_hz);
+  if (!slope)
+    return not_applicable(GuardKind::kScaleFactor, limit, "less than 20 s of motion, or none, are known");
   return uncertain_guard(GuardKind::kScaleFactor, *slope, 1.0, limit, "too little slow motion to tell");
 }
 

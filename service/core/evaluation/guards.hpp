@@ -17,7 +17,7 @@ enum class GuardKind : std::uint8_t {
   kMeanPreserved,  ///< shift of the record's mean, in standard errors of the noise's mean; at most 3
   kSlowTurnGain,   ///< gain of an added 0.1 Hz, 5 deg/s swing; off 1 by 0.01 at most
   kSwingGain,      ///< gain of an added 1 Hz, 5 deg/s swing; off 1 by 0.02 at most
-  kScaleFactor,    ///< gain of the record's own motion, means over 1 s; off 1 by 0.005 at most
+  kScaleFactor,    ///< gain of the record's own motion, means over 1 s, ten a second; off 1 by 0.005 at most
   kSeamRoughness,  ///< rms second difference at seams over that elsewhere; at most 1.2, or what the truth's or other places let expect
   kSeamOutliers,  ///< share of second differences at seams beyond the elsewhere 95 % quantile; at most 0.05 + 3 standard errors, or likewise
   kSeamWorstStep,  ///< worst sample-to-sample step at a seam in standard deviations of those elsewhere; at most 3, or likewise

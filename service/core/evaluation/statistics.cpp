@@ -15,6 +15,16 @@
 namespace gyrod::core {
 namespace {
 
+/// Over `length` samples each, which begin `step` samples apart; not finite where a sample is not.
+std::vector<double> means(std::span<const double> x, std::size_t length, std::size_t step) {
+  std::vector<double> means;
+  for (std::size_t begin = 0; begin + length <= x.size(); begin += step) {
+    const auto samples = x.subspan(begin, length);
+    means.push_back(std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(length));
+  }
+  return means;
+}
+
 /// Sums of a term over batches; batches without a finite term do not count.
 template <class Term>
 struct BatchSums {
@@ -188,6 +198,22 @@ std::optional<Measured> batch_slope(std::span<const double> x, std::span<const d
   }
   if (without.size() < 2) return std::nullopt;
   return Measured{*slope, jackknife_error(*slope, without)};
+}
+
+std::optional<Measured> slow_slope(std::span<const double> x, std::span<const double> y, double rate_hz) {
+  assert(x.size() == y.size() && rate_hz > 0.0);
+  constexpr std::size_t kMeansPerSecond = 10;
+  const auto second = static_cast<std::size_t>(std::max(1LL, std::llround(rate_hz)));
+  const std::size_t step = std::max<std::size_t>(second / kMeansPerSecond, 1);
+  if (x.size() < 2 * kBatchSeconds * second) return std::nullopt;
+  return batch_slope(means(x, second, step), means(y, second, step), kBatchSeconds * second / step);
+}
+
+std::optional<bool> within(const Measured& deviation, double limit) noexcept {
+  const double error = 2.0 * deviation.standard_error;
+  const double size = std::abs(deviation.value);
+  if (error > limit && !(size - error > limit)) return std::nullopt;
+  return size <= limit;
 }
 
 std::optional<SwingResponse> swing_response(std::span<const double> change, SampleRange range,

@@ -13,6 +13,9 @@
 
 namespace gyrod::core {
 
+/// Of the jackknife's batches: longer than the memory of what estimators miss of slow motion.
+inline constexpr std::size_t kBatchSeconds = 10;
+
 /// A value and how well it is known.
 struct Measured {
   double value = 0.0;
@@ -29,6 +32,16 @@ struct Measured {
 /// @return nothing where x is constant, with all batches or without one of them, or less than two are known  @pre x.size() == y.size()
 [[nodiscard]] std::optional<Measured> batch_slope(std::span<const double> x, std::span<const double> y,
                                                   std::size_t batch);
+
+/// Slope of y on x in slow motion: of means over a second, ten a second, with batches of 10 s. The means overlap as what is faster than a second is in
+/// each of them by chance, as its phase falls; a sample that is not finite takes its seconds with it.
+/// @return nothing for less than 20 s, and as of batch_slope()  @pre x.size() == y.size(), rate_hz > 0
+[[nodiscard]] std::optional<Measured> slow_slope(std::span<const double> x, std::span<const double> y,
+                                                 double rate_hz);
+
+/// Whether a deviation, which is known to two standard errors, is within a limit: so as measured, where two standard errors are less than the limit, or
+/// beyond it by more than these. @return nothing where that cannot be told
+[[nodiscard]] std::optional<bool> within(const Measured& deviation, double limit) noexcept;
 
 /// What became of a swing A sin(2 pi f t) that was added to an input: least squares of the output's change on sine, cosine and 1.
 struct SwingResponse {

@@ -12,7 +12,7 @@ namespace gyrod::core {
 ///   A = low(p^2, gain_memory),   C = low(p d, gain_memory),   A and C from 0 on,
 ///   q = max(0, most_gain - |C / A - most_gain|),   k = q A / (A + gain_ridge R),
 ///   out = answer + k clamp(low(m(answer), gain_follow), -gain_clip sqrt(A), gain_clip sqrt(A)),
-/// times in seconds, as the model's scale has it, R the variance of the samples' noise. What would ask for twice the most is noise more than motion, and gets
+/// times in samples at the design's rate, and the same seconds at the model's, R the variance of the samples' noise. What would ask for twice the most is noise more than motion, and gets
 /// nothing; a turn, against which the noise is small, shows a C / A near 0 and is beyond the clamp.
 /// Costs little, as the error of an answer of least error is orthogonal to it: the square of k times the slow motion's variance. For answers with
 /// look-ahead; those at once are compared with these (later_gain.hpp).

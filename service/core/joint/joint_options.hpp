@@ -192,7 +192,7 @@ struct JointOptions {
 };
 
 /// Which options hold for a sample rate and a window. Those that mean a time keep it at rates above the design's, those that a short window
-/// is too poor for follow its length in seconds. At lower rates and longer windows they stay what they are.
+/// is too poor for follow its length in seconds. At lower rates and longer windows they stay what they are, but for a duration().
 /// A plain value.
 class JointScale {
  public:

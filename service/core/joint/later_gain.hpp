@@ -13,7 +13,7 @@ namespace gyrod::core {
 ///   A = low(p^2, later_memory),   C = low(p d, later_memory),   A and C from 0 on,
 ///   k = C / A, between -most_later_loss and most_later_gain,
 ///   out = answer + k A / (A + gain_ridge R) clamp(low(m(answer), later_follow), -gain_clip sqrt(A), gain_clip sqrt(A)),
-/// times in seconds, as the model's scale has it, R the variance of the samples' noise. The answers that are compared are those before this, so that what is
+/// times in samples at the design's rate, and the same seconds at the model's, R the variance of the samples' noise. The answers that are compared are those before this, so that what is
 /// learned does not depend on what it does.
 /// A plain value; finite for finite arguments.
 class LaterGain {

@@ -23,7 +23,7 @@ struct Trust {
 ///           min(steady_correction s^3 b, most_steady_correction) moving(motion_steady)),
 ///   moving(high) = (motion - motion_low) / (high - motion_low), between 0 and 1,
 ///   s <- min(settled, s + (settled - s) / steady_memory),   b = settled / expected max(1, now / expected),
-/// with the rate and the memory at the model's scale, and d_k the residual k samples later, as far as the answer waits for it: what no
+/// with correction_rate, what comes of correction_share, both most_ and steady_memory at the model's scale, and d_k the residual k samples later, as far as the answer waits for it: what no
 /// model expects still arrives, hardly late, and the sum of the answers stays with that of the samples. With look-ahead the last rate is
 /// min(late_steady_correction s^4 b, most_late_steady_correction).
 /// A filter weighs motion against noise, and what is as small as the noise comes out smaller; where the error has been large for long, as on a

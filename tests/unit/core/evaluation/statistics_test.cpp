@@ -85,6 +85,31 @@ TEST(Statistics, NoSlopeOnAConstant) {
   EXPECT_FALSE(batch_slope(once, test::white_noise(100, 1.0, 6), 10));
 }
 
+// At 10 Hz means follow one another by a sample: 0.9 of a sine of 0.05 Hz, and noise that has nothing slow, + and - by turns.
+TEST(Statistics, SlowSlopeSeesWhatIsSlow) {
+  const auto slow = test::tone(600, 0.005, 3.0);
+  std::vector<double> y(slow.size());
+  for (std::size_t t = 0; t < y.size(); ++t) y[t] = 0.9 * slow[t] + (t % 2 == 0 ? 5.0 : -5.0);
+  const auto slope = slow_slope(slow, y, 10.0);
+  ASSERT_TRUE(slope);
+  EXPECT_NEAR(slope->value, 0.9, 1e-12);
+}
+
+TEST(Statistics, NoSlowSlopeOfLessThanTwentySeconds) {
+  const auto slow = test::tone(200, 0.005, 3.0);
+  EXPECT_TRUE(slow_slope(slow, slow, 10.0));
+  EXPECT_FALSE(slow_slope(std::span(slow).first(199), std::span(slow).first(199), 10.0));
+  EXPECT_TRUE(slow_slope(slow, slow, 0.3));  // a mean is of one sample at least
+}
+
+TEST(Statistics, IsWithinALimitOnlyWhereThatIsKnown) {
+  EXPECT_EQ(within({0.004, 0.001}, 0.005), true);
+  EXPECT_EQ(within({-0.006, 0.0025}, 0.005), false);  // as measured, as two errors are the limit
+  EXPECT_EQ(within({0.004, 0.003}, 0.005), std::nullopt);
+  EXPECT_EQ(within({-0.010, 0.003}, 0.005), std::nullopt);
+  EXPECT_EQ(within({-0.012, 0.003}, 0.005), false);
+}
+
 TEST(Statistics, SwingResponseFindsGainAndDelay) {
   std::vector<double> change(3000);
   for (std::size_t t = 0; t < change.size(); ++t) {

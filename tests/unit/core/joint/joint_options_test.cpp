@@ -29,6 +29,9 @@ TEST(JointScale, LeavesSlowSensorsAndLongWindowsAsTheyAre) {
   EXPECT_EQ(JointScale(120.0, 2 * kDesignWindowSamples), JointScale());
   const JointScale slow(60.0, kDesignWindowSamples);
   EXPECT_EQ(slow.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
+  EXPECT_EQ(slow.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
+  EXPECT_EQ(slow.forgetting(1.0), 1.0);
+  EXPECT_EQ(slow.most_correction(kOptions.most_steady_correction), kOptions.most_steady_correction);
   EXPECT_EQ(slow.recency(kOptions.recency), kOptions.recency);
   EXPECT_EQ(slow.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
   EXPECT_EQ(slow.correction_rate(kOptions.correction_rate), kOptions.correction_rate);

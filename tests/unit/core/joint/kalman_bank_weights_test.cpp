@@ -242,7 +242,7 @@ TEST(KalmanBank, TheMeanOfInnovationsCountsTenDeviationsAtTheMost) {
 
 // The scale of a model acts on what the bank was given, and on nothing else. After motion nothing but noise: what is said of slow motion takes
 // tens of thousands of samples to fade there.
-TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
+void take_all_at_the_models_scale(double rate_hz, std::size_t window) {
   Signal z = simulated(blocks(), 500, 9);
   const Signal still = testing::times(testing::white_noise(30000, 10), std::sqrt(kBankNoise));
   z.insert(z.end(), still.begin(), still.end());
@@ -252,7 +252,7 @@ TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
   lively.blocks[1].drive *= 10.0;
   ASSERT_TRUE(MemberDesigner().design(lively, kBankNoise, model.member(MemberKind::kPruned)));
   JointModel scaled = model;
-  scaled.scale = core::JointScale(480.0, 512);
+  scaled.scale = core::JointScale(rate_hz, window);
   JointOptions options;
   options.correction_share = 0.0;  // else the rest hardly counts here
   KalmanBank bank(options, 16);
@@ -262,10 +262,11 @@ TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
   options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
   options.most_steady_correction = scaled.scale.most_correction(options.most_steady_correction);
   options.most_late_steady_correction = scaled.scale.most_correction(options.most_late_steady_correction);
-  for (double* samples : {&options.steady_memory, &options.motion_mean, &options.motion_memory,
-                          &options.gain_band, &options.gain_follow, &options.gain_mean, &options.gain_memory,
-                          &options.later_follow, &options.later_memory})
+  for (double* samples : {&options.steady_memory, &options.motion_mean, &options.motion_memory})
     *samples = scaled.scale.memory(*samples);
+  for (double* samples : {&options.gain_band, &options.gain_follow, &options.gain_mean, &options.gain_memory,
+                          &options.later_follow, &options.later_memory})
+    *samples = scaled.scale.duration(*samples);
   KalmanBank expected(options, 16);
   expected.use(model);
   for (const double sample : z) {
@@ -274,6 +275,11 @@ TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
     ASSERT_EQ(ours.denoised.rate, theirs.denoised.rate);
     ASSERT_EQ(ours.realtime.rate, theirs.realtime.rate);
   }
+}
+
+TEST(KalmanBank, TakesSwitchingAndCorrectionsAtTheModelsScale) {
+  take_all_at_the_models_scale(480.0, 512);
+  take_all_at_the_models_scale(60.0, 1024);
 }
 
 }  // namespace
