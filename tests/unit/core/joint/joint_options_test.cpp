@@ -10,32 +10,30 @@ namespace {
 
 constexpr JointOptions kOptions;
 
+/// But for duration().
+void expect_nothing_restated(const JointScale& scale) {
+  EXPECT_EQ(scale.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
+  EXPECT_EQ(scale.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
+  EXPECT_EQ(scale.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
+  EXPECT_EQ(scale.most_correction(kOptions.most_steady_correction), kOptions.most_steady_correction);
+  EXPECT_EQ(scale.memory(kOptions.steady_memory), kOptions.steady_memory);
+  EXPECT_EQ(scale.recency(kOptions.recency), kOptions.recency);
+  EXPECT_EQ(scale.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
+  EXPECT_EQ(scale.forgetting(1.0), 1.0);
+}
+
 TEST(JointScale, LeavesAllAsItIsAtTheDesignAndWhereTheRateIsUnknown) {
   EXPECT_EQ(JointScale(kDesignRateHz, kDesignWindowSamples), JointScale());
   for (const double unknown :
        {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_EQ(JointScale(unknown, kDesignWindowSamples), JointScale());
   }
-  const JointScale none;
-  EXPECT_EQ(none.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
-  EXPECT_EQ(none.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
-  EXPECT_EQ(none.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
-  EXPECT_EQ(none.memory(kOptions.steady_memory), kOptions.steady_memory);
-  EXPECT_EQ(none.recency(kOptions.recency), kOptions.recency);
-  EXPECT_EQ(none.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
+  expect_nothing_restated(JointScale());
 }
 
 TEST(JointScale, LeavesSlowSensorsAndLongWindowsAsTheyAre) {
   EXPECT_EQ(JointScale(120.0, 2 * kDesignWindowSamples), JointScale());
-  const JointScale slow(60.0, kDesignWindowSamples);
-  EXPECT_EQ(slow.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
-  EXPECT_EQ(slow.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
-  EXPECT_EQ(slow.forgetting(1.0), 1.0);
-  EXPECT_EQ(slow.most_correction(kOptions.most_steady_correction), kOptions.most_steady_correction);
-  EXPECT_EQ(slow.recency(kOptions.recency), kOptions.recency);
-  EXPECT_EQ(slow.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
-  EXPECT_EQ(slow.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
-  EXPECT_EQ(slow.memory(kOptions.steady_memory), kOptions.steady_memory);
+  expect_nothing_restated(JointScale(60.0, kDesignWindowSamples));
 }
 
 TEST(JointScale, DurationsAreTheSameSecondsAtEveryRate) {
