@@ -128,9 +128,10 @@ class Totals {
     if (test::fails(figures.gain[1])) ++gains.off;
   }
   void print() const {
-    std::printf("worst of Butterworth's %.3f, of the prototype's %.3f; geometric mean of the latter %.4f\n",
-                worst_rival_, worst_prototype_,
-                cells_ > 0 ? std::exp(logarithms_ / static_cast<double>(cells_)) : 0.0);
+    if (worst_rival_ > 0.0) std::printf("worst of Butterworth's %.3f\n", worst_rival_);
+    if (cells_ > 0)
+      std::printf("worst of the prototype's %.3f, geometric mean %.4f\n", worst_prototype_,
+                  std::exp(logarithms_ / static_cast<double>(cells_)));
     for (const auto& [scale, gains] : gains_)
       std::printf("slow gain surely off by more than 0.005, noise x %g: lag 0 %zu, 16 %zu of %zu\n", scale,
                   gains.off_at_once, gains.off, gains.rows);
@@ -151,7 +152,9 @@ class Totals {
 
 int study(const Arguments& arguments) {
   std::printf("%-12s %41s", "row", "RMSE at lag 0, 4, 8, 12, 16, 32");
-  std::printf(" | of Butterworth's | of the prototype's 0, 8, 16 | NEE, NIS, alarm | slow gain 0, 16\n");
+  std::printf(
+      " | of Butterworth's | of the prototype's 0, 8, 16 | NEE, NIS, alarm | slow gain 0, 16, +- standard "
+      "error\n");
   const bool rivals = number(arguments, "rivals", 1) != 0.0;
   const auto digits = static_cast<int>(number(arguments, "digits", 3));
   const auto axes = arguments.find("axes");
@@ -175,8 +178,10 @@ int study(const Arguments& arguments) {
     if (rivals) totals.compare_rivals(row, setting, figures, digits);
     std::printf(" |");
     totals.compare_prototype(row, figures);
-    std::printf(" | %4.2f %4.2f %4.2f | %5.3f %5.3f\n", figures.normalised_error, figures.innovation,
-                figures.alarm, figures.gain[0].value, figures.gain[1].value);
+    std::printf(" | %4.2f %4.2f %4.2f |", figures.normalised_error, figures.innovation, figures.alarm);
+    for (const core::Measured& gain : figures.gain)
+      std::printf(" %5.3f +- %5.3f", gain.value, gain.standard_error);
+    std::printf("\n");
     std::fflush(stdout);
     totals.count_gains(row, figures);
   }

@@ -217,7 +217,7 @@ class JointScale {
   /// The same seconds at lower rates, too; at least one sample.
   [[nodiscard]] double duration(double samples) const noexcept { return std::max(samples * rate_, 1.0); }
   /// rate / faster: of what is owed the same part in the same seconds.
-  [[nodiscard]] double most_correction(double rate) const noexcept { return rate / faster_; }
+  [[nodiscard]] double pace(double rate) const noexcept { return rate / faster_; }
   /// rate * fewer / faster, at most 0.1: the same seconds; and it makes up for the window's mean, which wanders faster in a shorter window.
   [[nodiscard]] double correction_rate(double rate) const noexcept;
 

@@ -24,7 +24,7 @@ double SlowCorrection::apply(double sample, double estimate, const Trust& trust,
   const double rate =
       std::max({scale.correction_rate(options.correction_rate) *
                     std::lerp(options.still_correction, 1.0, moving(trust, options.motion_high, options)),
-                scale.most_correction(std::min(options.correction_share * now, kMostCorrection)),
+                scale.pace(std::min(options.correction_share * now, kMostCorrection)),
                 steady_rate(trust, options, scale, !newer.empty())});
   const double kept = std::max(1.0 - options.residual_decay * rate, 0.0);
   double weight = options.residual_weight;
@@ -52,8 +52,7 @@ double SlowCorrection::steady_rate(const Trust& trust, const JointOptions& optio
   const double rate =
       late ? options.late_steady_correction * cube * steady_ : options.steady_correction * cube;
   const double most = late ? options.most_late_steady_correction : options.most_steady_correction;
-  return moving(trust, options.motion_steady, options) *
-         std::min(rate * given_back, scale.most_correction(most));
+  return moving(trust, options.motion_steady, options) * std::min(rate * given_back, scale.pace(most));
 }
 
 }  // namespace gyrod::core

@@ -15,7 +15,7 @@ void expect_nothing_restated(const JointScale& scale) {
   EXPECT_EQ(scale.switching_rate(kOptions.switching_rate), kOptions.switching_rate);
   EXPECT_EQ(scale.agile_drive(kOptions.agile_drive), kOptions.agile_drive);
   EXPECT_EQ(scale.correction_rate(kOptions.correction_rate), kOptions.correction_rate);
-  EXPECT_EQ(scale.most_correction(kOptions.most_steady_correction), kOptions.most_steady_correction);
+  EXPECT_EQ(scale.pace(kOptions.most_steady_correction), kOptions.most_steady_correction);
   EXPECT_EQ(scale.memory(kOptions.steady_memory), kOptions.steady_memory);
   EXPECT_EQ(scale.recency(kOptions.recency), kOptions.recency);
   EXPECT_EQ(scale.shrinkage(kOptions.shrinkage), kOptions.shrinkage);
@@ -95,9 +95,9 @@ TEST(JointScale, ForgetsInTheSameSeconds) {
 }
 
 TEST(JointScale, GivesBackTheSamePartInTheSameSeconds) {
-  EXPECT_EQ(JointScale(480.0, 1024).most_correction(0.04), 0.01);
-  EXPECT_EQ(JointScale(50.0, 1024).most_correction(0.04), 0.04);
-  EXPECT_EQ(JointScale(120.0, 256).most_correction(0.04), 0.04);
+  EXPECT_EQ(JointScale(480.0, 1024).pace(0.04), 0.01);
+  EXPECT_EQ(JointScale(50.0, 1024).pace(0.04), 0.04);
+  EXPECT_EQ(JointScale(120.0, 256).pace(0.04), 0.04);
 }
 
 // Half the samples, twice the rate, whatever the seconds.

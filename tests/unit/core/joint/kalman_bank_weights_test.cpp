@@ -243,6 +243,7 @@ TEST(KalmanBank, TheMeanOfInnovationsCountsTenDeviationsAtTheMost) {
 // The scale of a model acts on what the bank was given, and on nothing else. After motion nothing but noise: what is said of slow motion takes
 // tens of thousands of samples to fade there.
 void take_all_at_the_models_scale(double rate_hz, std::size_t window) {
+  SCOPED_TRACE(testing::Message() << rate_hz << " Hz, window " << window);
   Signal z = simulated(blocks(), 500, 9);
   const Signal still = testing::times(testing::white_noise(30000, 10), std::sqrt(kBankNoise));
   z.insert(z.end(), still.begin(), still.end());
@@ -260,8 +261,8 @@ void take_all_at_the_models_scale(double rate_hz, std::size_t window) {
   options.switching_rate = scaled.scale.switching_rate(options.switching_rate);
   options.hindsight_rate = scaled.scale.switching_rate(options.hindsight_rate);
   options.correction_rate = scaled.scale.correction_rate(options.correction_rate);
-  options.most_steady_correction = scaled.scale.most_correction(options.most_steady_correction);
-  options.most_late_steady_correction = scaled.scale.most_correction(options.most_late_steady_correction);
+  options.most_steady_correction = scaled.scale.pace(options.most_steady_correction);
+  options.most_late_steady_correction = scaled.scale.pace(options.most_late_steady_correction);
   for (double* samples : {&options.steady_memory, &options.motion_mean, &options.motion_memory})
     *samples = scaled.scale.memory(*samples);
   for (double* samples : {&options.gain_band, &options.gain_follow, &options.gain_mean, &options.gain_memory,
