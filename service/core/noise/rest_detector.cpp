@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/noise/line_share.hpp"
+#include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -36,6 +37,11 @@ void add_up(RestDetector::Segments& sum, const RestDetector::Segments& more) noe
   sum.count += more.count;
 }
 
+/// How far apart the variances of blocks of so many samples may be, as a ratio.
+double most_uneven(double samples) noexcept {
+  return portable_exp(kEvenDeviations * std::sqrt(2.0 / std::min(samples, kMostEvenSamples)));
+}
+
 }  // namespace
 
 RestDetector::RestDetector(double sample_rate_hz) : periodogram_(kNoiseSegment) {
@@ -48,7 +54,7 @@ void RestDetector::retime(double sample_rate_hz) noexcept {
   const double samples = std::max(kBlockSeconds * sample_rate_hz, kFewestInBlock);
   block_samples_ = static_cast<std::size_t>(std::lround(samples));
   most_bridged_ = static_cast<std::size_t>(kMostBridged * samples);
-  even_ratio_ = std::exp(kEvenDeviations * std::sqrt(2.0 / std::min(samples, kMostEvenSamples)));
+  even_ratio_ = most_uneven(samples);
   interrupt();
 }
 
@@ -57,6 +63,7 @@ bool RestDetector::step(const Triple& rate, const Triple* accelerometer) noexcep
   if (inputs != inputs_) interrupt();
   inputs_ = inputs;
   if (in_block_ == 0) fresh_ = {};
+  if (accelerometer != nullptr) take_force(*accelerometer);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     add(axis, rate[axis]);
     if (accelerometer != nullptr) add(3 + axis, (*accelerometer)[axis]);
@@ -72,6 +79,12 @@ bool RestDetector::bridge(const Triple& rate, const Triple* accelerometer) noexc
   if (++bridged_ <= most_bridged_) return step(rate, accelerometer);
   interrupt();
   return false;
+}
+
+void RestDetector::take_force(const Triple& force) noexcept {
+  if (in_block_ == 0) forces_ = 0;
+  if (forces_ == 0 || force != force_) ++forces_;
+  force_ = force;
 }
 
 void RestDetector::add(std::size_t input, double value) noexcept {
@@ -100,6 +113,7 @@ void RestDetector::end_block() noexcept {
     const double mean = sums.sum / count;
     windows_[input][newest_] = {sums.first + mean, std::max(sums.squares / count - mean * mean, 0.0)};
   }
+  force_counts_[newest_] = static_cast<double>(forces_);
   in_block_ = bridged_ = 0;
   if (!newest_is_even()) {
     begin_run();
@@ -138,7 +152,7 @@ RestVerdict RestDetector::judge() noexcept {
   if (std::ranges::all_of(variance_, [](double v) { return !(v > 0.0); })) return RestVerdict::kFrozen;
   for (std::size_t input = 0; input < inputs_; ++input) {
     const double most = input < 3 ? kSteady : kSteadyAccelerometer;
-    if (!is_motionless(input, kBlocks) && wandering(windows_[input]) > most) return RestVerdict::kWandering;
+    if (!is_motionless(input, kBlocks) && wandering(input) > most) return RestVerdict::kWandering;
   }
   listen();
   if (!listened_) return RestVerdict::kTooEarly;
@@ -167,9 +181,19 @@ bool RestDetector::newest_is_even() const noexcept {
       least = std::min(least, variance);
       most = std::max(most, variance);
     }
-    if (most > even_ratio_ * least) return false;
+    const double ratio =
+        input < 3 ? even_ratio_ : most_uneven(fewest_in(input, std::min(blocks_ + 1, kBlocks)));
+    if (most > ratio * least) return false;
   }
   return true;
+}
+
+/// Samples in one of the newest blocks that tell something new, in the one with the fewest; at least 1.
+double RestDetector::fewest_in(std::size_t input, std::size_t blocks) const noexcept {
+  auto fewest = static_cast<double>(block_samples_);
+  for (std::size_t back = 0; input >= 3 && back < blocks; ++back)
+    fewest = std::min(fewest, force_counts_[(newest_ + kBlocks - back) % kBlocks]);
+  return fewest;
 }
 
 /// The accelerometer's axis has kept to kMotionless_mps2 over so many of the newest blocks.
@@ -189,7 +213,8 @@ bool RestDetector::is_motionless(std::size_t input, std::size_t blocks) const no
 }
 
 /// Spread of the block means in parts of what white noise of the blocks' level explains; 0 where nothing changes.
-double RestDetector::wandering(const Window& window) const noexcept {
+double RestDetector::wandering(std::size_t input) const noexcept {
+  const Window& window = windows_[input];
   const double count = static_cast<double>(kBlocks);
   // From one of them, so that means which are all the same have no spread by rounding.
   const double origin = window.front().mean;
@@ -205,7 +230,7 @@ double RestDetector::wandering(const Window& window) const noexcept {
     spread += off * off / (count - 1.0);
   }
   if (!(spread > 0.0)) return 0.0;
-  return spread * static_cast<double>(block_samples_) / level;
+  return spread * fewest_in(input, kBlocks) / level;
 }
 
 /// Too few segments at the moment leave the answer that there was.

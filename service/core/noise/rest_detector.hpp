@@ -32,7 +32,8 @@ enum class RestVerdict : std::uint8_t {
 /// A block that is not even with those before begins a new run, and eight blocks of a run are judged. A sensor whose own low-pass lies
 /// below about a third of half the sample rate has too few independent samples for this, and is rarely found at rest.
 /// The accelerometer, where there is one, must be even and steady (24, for it flickers), too, or within 0.02 m/s^2 on the axis: of a coarse
-/// one, whose last digit comes and goes, no block is like the other. Neither level nor bias is judged: that takes a memory
+/// one, whose last digit comes and goes, no block is like the other. Its n is the number of specific forces that differ from the one before: one
+/// that is slower than the gyro, and holds or repeats its last, tells so much less. Neither level nor bias is judged: that takes a memory
 /// (standstill_learner.hpp). The verdict is a function of samples and sample rate alone: no clock.
 /// Constant memory of about 50 kB; nothing allocates after construction. One thread at a time.
 class RestDetector {
@@ -92,10 +93,12 @@ class RestDetector {
   void end_segment() noexcept;
   void begin_run() noexcept;
   void end_half() noexcept;
+  void take_force(const Triple& force) noexcept;
+  [[nodiscard]] double fewest_in(std::size_t input, std::size_t blocks) const noexcept;
   void average() noexcept;
   [[nodiscard]] RestVerdict judge() noexcept;
   [[nodiscard]] bool newest_is_even() const noexcept;
-  [[nodiscard]] double wandering(const Window& window) const noexcept;
+  [[nodiscard]] double wandering(std::size_t input) const noexcept;
   [[nodiscard]] bool is_motionless(std::size_t input, std::size_t blocks) const noexcept;
   void listen() noexcept;
 
@@ -110,6 +113,9 @@ class RestDetector {
   bool after_gap_ = true;
   std::array<Sums, kInputs> sums_{};
   std::array<Window, kInputs> windows_{};
+  Triple force_{};          ///< the last one
+  std::size_t forces_ = 0;  ///< of the block at work that differ from the one before, its first among them
+  std::array<double, kBlocks> force_counts_{};  ///< likewise, of the blocks
   Periodogram periodogram_;
   std::array<std::vector<double>, 3> segment_;  ///< the samples of the segment at work
   std::size_t in_segment_ = 0;

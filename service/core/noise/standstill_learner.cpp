@@ -17,13 +17,6 @@ constexpr double kFewestSeconds = 10.0;
 /// Of what is learned; so much more and the models are made anew.
 constexpr double kRefit = 0.1;
 
-bool close(const Triple& a, const Triple& b) noexcept {
-  for (std::size_t axis = 0; axis < a.size(); ++axis) {
-    if (std::abs(a[axis] - b[axis]) > kSameBias) return false;
-  }
-  return true;
-}
-
 /// Moves a mean of `weight` towards a value of weight `added`.
 void blend(Triple& mean, double weight, const Triple& value, double added) noexcept {
   for (std::size_t axis = 0; axis < mean.size(); ++axis) {
@@ -58,6 +51,7 @@ void StandstillLearner::retime(double sample_rate_hz) noexcept {
   forget();
   state_ = {};
   state_.sample_rate_hz = sample_rate_hz;
+  has_bias_ = {};
   other_seconds_ = 0.0;
 }
 
@@ -101,7 +95,7 @@ bool StandstillLearner::believes_level() noexcept {
 
 bool StandstillLearner::believes_bias() noexcept {
   if (state_.bias_seconds == 0.0) return true;
-  if (close(detector_.mean(), state_.bias)) {
+  if (same_bias(state_.bias)) {
     other_seconds_ = std::max(other_seconds_ - block_seconds_, 0.0);
     return true;
   }
@@ -113,8 +107,16 @@ bool StandstillLearner::believes_bias() noexcept {
   return true;
 }
 
+/// Of the axes that have one.
+bool StandstillLearner::same_bias(const Triple& bias) const noexcept {
+  for (std::size_t axis = 0; axis < bias.size(); ++axis) {
+    if (has_bias_[axis] && std::abs(detector_.mean()[axis] - bias[axis]) > kSameBias) return false;
+  }
+  return true;
+}
+
 void StandstillLearner::vote_for_other_bias() noexcept {
-  if (other_seconds_ > 0.0 && !close(detector_.mean(), other_bias_)) {
+  if (other_seconds_ > 0.0 && !same_bias(other_bias_)) {
     other_seconds_ = std::max(other_seconds_ - block_seconds_, 0.0);
     return;
   }
@@ -126,39 +128,44 @@ void StandstillLearner::learn() noexcept {
   learn_bias();
   const RestDetector::Segments& fresh = detector_.fresh();
   if (fresh.count == 0.0) return;
-  const double kept = std::min(state_.segments, most_segments_ - fresh.count);
-  const double all = kept + fresh.count;
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
-    // An axis that has not changed so far and does now: what there is of it is new.
-    const double old = level_[axis] > 0.0 ? kept : 0.0;
     // An axis that does not change has no spectrum but that of rounding.
-    const bool alive = detector_.variance()[axis] > 0.0;
-    const NoiseSpectrum power = alive ? fresh.power[axis] : NoiseSpectrum{};
+    if (!(detector_.variance()[axis] > 0.0)) continue;
+    const double kept = std::min(segments_[axis], most_segments_ - fresh.count);
+    segments_[axis] = kept + fresh.count;
+    since_fit_[axis] += fresh.count;
     double sum = 0.0;
     for (std::size_t k = 0; k < kNoiseBins; ++k) {
-      power_[axis][k] = (old * power_[axis][k] + power[k]) / (old + fresh.count);
+      power_[axis][k] = (kept * power_[axis][k] + fresh.power[axis][k]) / segments_[axis];
       sum += power_[axis][k];
     }
     level_[axis] = sum / static_cast<double>(kNoiseBins);
   }
-  state_.segments = all;
+  state_.segments = std::ranges::max(segments_);
   state_.rest_seconds += fresh.count * segment_seconds_;
-  since_fit_ += fresh.count;
-  if (all >= least_segments_ && since_fit_ >= kRefit * all) fit();
+  fit();
 }
 
 void StandstillLearner::learn_bias() noexcept {
   const double weight = std::min(state_.bias_seconds, kMemorySeconds - block_seconds_);
+  for (std::size_t axis = 0; axis < has_bias_.size(); ++axis) {
+    if (has_bias_[axis] || !(detector_.variance()[axis] > 0.0)) continue;
+    state_.bias[axis] = detector_.mean()[axis];
+    has_bias_[axis] = true;
+  }
   blend(state_.bias, weight, detector_.mean(), block_seconds_);
   state_.bias_seconds = weight + block_seconds_;
 }
 
 void StandstillLearner::fit() noexcept {
+  bool fitted = false;
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
-    state_.models[axis] = fit_noise_and_lines(power_[axis], state_.segments).value_or(NoiseModel{});
+    if (segments_[axis] < least_segments_ || since_fit_[axis] < kRefit * segments_[axis]) continue;
+    state_.models[axis] = fit_noise_and_lines(power_[axis], segments_[axis]).value_or(NoiseModel{});
+    since_fit_[axis] = 0.0;
+    fitted = true;
   }
-  since_fit_ = 0.0;
-  ++revision_;
+  if (fitted) ++revision_;
 }
 
 /// The noise; the bias has its own vote.
@@ -168,8 +175,7 @@ void StandstillLearner::forget() noexcept {
   state_.segments = 0.0;
   state_.rest_seconds = 0.0;
   power_ = {};
-  level_ = {};
-  since_fit_ = 0.0;
+  level_ = segments_ = since_fit_ = {};
   louder_seconds_ = 0.0;
   if (had_models) ++revision_;
 }
@@ -188,9 +194,12 @@ bool StandstillLearner::restore(const StandstillState& state) noexcept {
       power_[axis][k] = dead ? 0.0 : noise_spectrum(without_lines(state_.models[axis]), w);
     }
     add_lines(state_.models[axis], power_[axis]);
+    segments_[axis] = dead ? 0.0 : state_.segments;
+    has_bias_[axis] = !dead;
     level_[axis] = dead ? 0.0 : noise_variance(state_.models[axis]);
   }
-  since_fit_ = louder_seconds_ = other_seconds_ = 0.0;
+  since_fit_ = {};
+  louder_seconds_ = other_seconds_ = 0.0;
   ++revision_;
   return true;
 }

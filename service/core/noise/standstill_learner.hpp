@@ -15,7 +15,7 @@ namespace gyrod::core {
 struct StandstillState {
   double sample_rate_hz = 0.0;
   double rest_seconds = 0.0;  ///< that the models were learned from, all told
-  double segments = 0.0;      ///< that the models weigh, at most what ten minutes hold
+  double segments = 0.0;  ///< that the models weigh, at most what ten minutes hold; of the axis with the most
   std::array<NoiseModel, 3> models{};
   Triple bias{};              ///< mean rate at rest
   double bias_seconds = 0.0;  ///< at rest with this bias, ten minutes at most
@@ -29,7 +29,7 @@ struct StandstillState {
 ///           A window in which an axis is stuck that was alive tells neither;
 ///   bias:   a window whose mean is more than 1 deg/s off the learned bias on some axis is a slow constant turn, unless such
 ///           windows, all alike, outlast what the bias was learned from (ten minutes of it at most).
-/// While nothing is learned the first rest is believed. A constant turn leaves the noise as it is; only the bias is then wrong, until
+/// An axis that has never changed has no say. While nothing is learned the first rest is believed. A constant turn leaves the noise as it is; only the bias is then wrong, until
 /// outvoted.
 ///
 /// Spectra of the segments at rest are averaged, with the weight of the last ten minutes of rest; older ones fade. From five
@@ -82,6 +82,7 @@ class StandstillLearner {
   void learn() noexcept;
   void learn_bias() noexcept;
   void fit() noexcept;
+  [[nodiscard]] bool same_bias(const Triple& bias) const noexcept;
   void forget() noexcept;
 
   double block_seconds_ = 0.0;
@@ -92,9 +93,11 @@ class StandstillLearner {
   bool at_rest_ = false;
   std::uint64_t revision_ = 0;
   StandstillState state_;
-  std::array<NoiseSpectrum, 3> power_{};  ///< averages over state_.segments
+  std::array<NoiseSpectrum, 3> power_{};  ///< averages over segments_
+  Triple segments_{};                     ///< of each axis: one may have come to life later
+  Triple since_fit_{};                    ///< of these
   Triple level_{};                        ///< variances that the windows are compared with
-  double since_fit_ = 0.0;                ///< segments
+  std::array<bool, 3> has_bias_{};        ///< the axis has changed at rest: its mean is no stuck value
   double louder_seconds_ = 0.0;
   Triple other_bias_{};
   double other_seconds_ = 0.0;

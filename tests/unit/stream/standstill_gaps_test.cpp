@@ -154,5 +154,34 @@ TEST(StandstillNoise, AnAccelerometerThatComesAndGoesDoesNotKeepRestFromBeingFou
   EXPECT_TRUE(learner.at_rest());
 }
 
+/// A minute at rest at 200 Hz, with a noisy accelerometer that measures every so many samples, and between them has nothing or its last.
+double rest_with(std::size_t every, bool repeats) {
+  constexpr double kHz = 200.0;
+  StandstillNoise learner({.sample_rate_hz = kHz});
+  auto samples = still(12'000, 0.01);
+  const auto noise = testing::white_noise(3 * samples.size(), 9);
+  std::size_t at_rest = 0;
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    const std::size_t k = repeats ? n - n % every : n;
+    if (k % every == 0) {
+      samples[n].specific_force_mps2 = {0.05 * noise[3 * k], 0.05 * noise[3 * k + 1],
+                                        9.81 + 0.05 * noise[3 * k + 2]};
+    }
+    learner.step(samples[n], true, kHz);
+    if (learner.at_rest()) ++at_rest;
+  }
+  return static_cast<double>(at_rest) / static_cast<double>(samples.size());
+}
+
+// Forces that are held tell nothing new: taken for samples of their own, their means vary by more than their noise would explain.
+TEST(StandstillNoise, AnAccelerometerSlowerThanTheGyroFindsRestAsSoon) {
+  const double as_fast = rest_with(1, false);
+  EXPECT_GT(as_fast, 0.8);
+  for (const std::size_t every : {std::size_t{2}, std::size_t{4}, std::size_t{8}, std::size_t{16}}) {
+    EXPECT_EQ(rest_with(every, false), as_fast) << every;
+    EXPECT_EQ(rest_with(every, true), as_fast) << every;
+  }
+}
+
 }  // namespace
 }  // namespace gyrod::stream

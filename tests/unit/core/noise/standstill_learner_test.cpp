@@ -134,6 +134,34 @@ TEST(StandstillLearner, AnAxisThatComesToLifeHasItsFullLevelAtOnce) {
   EXPECT_GT(learner.rest_seconds(), 100.0);
 }
 
+// White noise has no lines. Its first segments are few, whatever the other axes have seen: weighed as if they were many, they look like three.
+TEST(StandstillLearner, AnAxisThatComesToLifeBeginsWithItsOwnSegments) {
+  for (unsigned seed = 20; seed < 24; ++seed) {
+    StandstillLearner learner(100.0);
+    Axes dead = testing::still_axes(30'000, 0.35, seed);
+    dead[0].assign(30'000, 0.0);
+    testing::run(learner, dead, [] {});
+    testing::run(learner, testing::still_axes(2000, 0.35, seed + 10), [&] {
+      for (const NoiseModel& model : learner.models()) ASSERT_EQ(model.line_count, 0U) << seed;
+    });
+    EXPECT_TRUE(is_usable(learner.models()[0])) << "twenty seconds tell a level";
+  }
+}
+
+// What a dead axis says is no mean rate: the sensor is not turning where the axis then has an offset.
+TEST(StandstillLearner, AnAxisThatComesToLifeWithAnOffsetIsAtRest) {
+  StandstillLearner learner(100.0);
+  Axes dead = testing::still_axes(30'000, 0.35, 15);
+  dead[0].assign(30'000, 0.0);
+  testing::run(learner, dead, [] {});
+  Axes alive = testing::still_axes(2000, 0.35, 16);
+  testing::add_rate(alive, 0, 2.0);
+  EXPECT_GT(seconds_at_rest(learner, alive), 10.0) << "eight blocks after it comes to life";
+  EXPECT_NEAR(learner.bias()[0], 2.3 * kRadPerDeg, 0.1 * kRadPerDeg);
+  testing::add_rate(alive, 0, 2.0);
+  EXPECT_LE(seconds_at_rest(learner, alive), 1.0) << "and from then on it has a say";
+}
+
 TEST(StandstillLearner, BelievesAHigherLevelAfterHalfAnHour) {
   StandstillLearner learner(100.0);
   rest(learner, 60.0, 0.2, 12);
