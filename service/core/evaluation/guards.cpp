@@ -78,8 +78,8 @@ Guard gain_guard(const Method& method, const Contender& plain, const GuardCase& 
   if (!response)
     return not_applicable(test.kind, test.limit, "the judged samples hold no whole period of it");
   const bool known = std::isfinite(response->standard_error);
-  Guard guard = uncertain_guard(test.kind, {response->gain - 1.0, known ? response->standard_error : 0.0},
-                                1.0, test.limit, "the answer varies too much to tell");
+  Guard guard = uncertain_guard(test.kind, {response->gain - 1.0, response->standard_error}, 1.0, test.limit,
+                                known ? "the answer varies too much to tell" : "less than 20 s are known");
   if (!known) guard.standard_error.reset();
   guard.group_delay_samples = response->delay_samples;
   if (on.max_signal_hz > 0.0 && test.frequency_hz > kWithinBand * on.max_signal_hz) {

@@ -239,7 +239,23 @@ TEST(Guards, SayWhyTheyDoNotApply) {
   }
 }
 
-// First-order low-pass, exponential average with share a: group delay at low frequency (1 - a)/a samples.
+// One batch tells nothing of how uncertain a gain is.
+TEST(Guards, DoNotJudgeAGainWhoseErrorIsNotKnown) {
+  const Drive drive;
+  const Method method = method_with([](std::vector<double>& estimate) {
+    for (double& value : estimate) value *= 0.9;
+  });
+  GuardCase on = drive.guard_case();
+  on.range = {500, 1400};  // 9 s
+  for (const Guard& guard : guards(method, method.run(drive.noisy), on)) {
+    if (guard.kind != GuardKind::kSwingGain && guard.kind != GuardKind::kVibrationGain) continue;
+    EXPECT_EQ(guard.verdict, Verdict::kNotApplicable) << name_of(guard.kind);
+    EXPECT_NE(guard.reason.find("20 s"), std::string::npos) << guard.reason;
+    EXPECT_NEAR(guard.value.value(), 0.9, 0.1) << "said, but not judged";
+    EXPECT_FALSE(guard.standard_error);
+  }
+}
+
 // Three minutes at 1.8 Hz: 0.1 Hz has its periods, 1 Hz is nothing that samples could hold.
 TEST(Guards, SayThatASwingIsBeyondHalfTheSampleRate) {
   const Drive drive;
@@ -251,6 +267,7 @@ TEST(Guards, SayThatASwingIsBeyondHalfTheSampleRate) {
   EXPECT_NE(reason(GuardKind::kSwingGain).find("Nyquist"), std::string::npos);
 }
 
+// First-order low-pass, exponential average with share a: group delay at low frequency (1 - a)/a samples.
 TEST(Guards, AddedSwingMeasuresTheGroupDelayOfAFilter) {
   const Drive drive;
   const Method method{"exponential", 0, [](std::span<const double> noisy) {
