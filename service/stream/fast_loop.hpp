@@ -26,7 +26,7 @@ struct ModelOrigin {
   std::array<double, kAxes> noise_floor_radps{};
 };
 
-/// Runs in the thread that pushes. Allocates nothing after construction.
+/// Runs in the thread that pushes. Allocates nothing after construction but in make_room().
 class FastLoop {
  public:
   FastLoop(const ModelMethodFactory& factory, std::size_t window_samples, std::size_t lag_samples) {
@@ -117,6 +117,10 @@ class FastLoop {
 
   /// What the slow loop writes into, while it owns the channel.
   [[nodiscard]] Model& model(std::size_t axis) noexcept { return *models_[axis]; }
+  /// For longer windows. @pre no slow loop is writing the models @throws std::bad_alloc
+  void make_room(std::size_t window_samples) {
+    for (auto& model : models_) model->make_room(window_samples);
+  }
   /// The stream has ended. @pre the caller owns the channel
   void reset_models() noexcept {
     for (auto& model : models_) model->reset();

@@ -103,6 +103,7 @@ void Engine::Impl::follow_rate(Channel& channel) {
 bool Engine::Impl::make_room(Channel& channel, unsigned doublings) {
   try {
     for (const auto& bench : benches_) bench->make_room(doublings);
+    channel.fast_loop->make_room(options_.window_samples << doublings);
     channel.ring.grow(channel_positions(options_, doublings));
     return true;
   } catch (const std::bad_alloc&) {

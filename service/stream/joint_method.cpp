@@ -32,7 +32,8 @@ constexpr double kSteady = 512.0;
 constexpr double kOtherRate = 0.25;
 
 struct JointState final : Model {
-  explicit JointState(std::size_t window_samples) {
+  explicit JointState(std::size_t window_samples) { JointState::make_room(window_samples); }
+  void make_room(std::size_t window_samples) override {
     joint.lasting.make_room(core::RecencyTapers::bins(window_samples));
   }
   void reset() noexcept override {

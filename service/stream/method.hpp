@@ -61,6 +61,8 @@ class Model {
   /// Forgets every window, as just made: the stream has ended. Allocates nothing. After a gap, the same sensor going on, it is not
   /// called.
   virtual void reset() noexcept = 0;
+  /// For windows of so many samples at the most: fits of them allocate nothing. Called while nobody fits. @throws std::bad_alloc
+  virtual void make_room(std::size_t window_samples) { static_cast<void>(window_samples); }
   /// Variance of the sensor's own noise as the last window had it, (rad/s)^2; 0 where it does not know.
   [[nodiscard]] virtual double noise_variance() const noexcept { return 0.0; }
 };

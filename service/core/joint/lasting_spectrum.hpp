@@ -19,7 +19,8 @@ class LastingSpectrum {
   void make_room(std::size_t bins) { power_.reserve(bins); }
 
   /// Takes a window's periodogram. Until so much has been seen it is the mean of all windows by their amounts, then an exponential one.
-  /// Another number of bins than before starts anew, and allocates where there is no room. So does a mean that is not finite.
+  /// Where windows have become longer or shorter by a whole factor, the mean is restated at their bins; any other number of bins starts anew. Both
+  /// allocate where there is no room. A mean that is not finite starts anew.
   /// @param periodogram finite, in parts of `unit`
   /// @param amount what the window tells in parts of a full one: short ones blur what is narrow
   /// @param share  of a full window in the mean
@@ -39,6 +40,7 @@ class LastingSpectrum {
 
  private:
   void start_anew(std::size_t bins);
+  [[nodiscard]] bool restate(std::size_t bins);
 
   std::vector<double> power_;
   double amount_ = 0.0;  ///< of all windows

@@ -1,6 +1,11 @@
+#include <atomic>
+#include <memory>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "stream/engine.hpp"
+#include "stream/joint_method.hpp"
 #include "stream/paper_method.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/samples.hpp"
@@ -48,20 +53,65 @@ TEST(SamplePath, AllocatesForEachDoublingOfAFastSensorsWindowsAndNeverAgain) {
   options.max_hop_samples = 128;
   options.workers = 2;
   options.max_delay_s = 3600.0;
-  NullSink sink;
-  Engine engine(options, testing::last_sample_method(), sink);
   const auto samples = testing::at_rate(testing::noisy_samples(8000), 1000);
   const std::span<const Sample> all{samples};
-  const auto allocations_in = [&](std::size_t from, std::size_t to) {
+  for (const MethodFactory& method :
+       {MethodFactory{testing::last_sample_method()}, MethodFactory{joint_method({})}}) {
+    NullSink sink;
+    Engine engine(options, method, sink);
+    const auto allocations_in = [&](std::size_t from, std::size_t to) {
+      const std::uint64_t before = testing::allocations();
+      for (std::size_t n = from; n < to; n += 8) engine.push("imu", all.subspan(n, 8));
+      engine.wait_idle();
+      return testing::allocations() - before;
+    };
+    EXPECT_GT(allocations_in(0, 1024), 0U) << "256 to 512 to 1024 samples";
+    EXPECT_EQ(allocations_in(1032, 4000), 0U);
+    engine.end_of_stream("imu");
+    EXPECT_EQ(allocations_in(4000, 8000), 0U) << "the second stretch has what the first one needed";
+  }
+}
+
+/// Whether a worker takes memory.
+class WatchedMethod final : public ModelMethod {
+ public:
+  explicit WatchedMethod(std::unique_ptr<ModelMethod> method, std::atomic<std::uint64_t>& allocations)
+      : method_(std::move(method)), allocations_(allocations) {}
+  [[nodiscard]] std::size_t min_samples() const noexcept override { return method_->min_samples(); }
+  void compare(const std::array<WindowInput, kAxes>& axes) noexcept override { method_->compare(axes); }
+  void fit(const WindowInput& window, Model& model, core::WindowReport& report) noexcept override {
     const std::uint64_t before = testing::allocations();
-    for (std::size_t n = from; n < to; n += 8) engine.push("imu", all.subspan(n, 8));
-    engine.wait_idle();
-    return testing::allocations() - before;
+    method_->fit(window, model, report);
+    allocations_ += testing::allocations() - before;
+  }
+  void follow_noise(const WindowInput& window, Model& model) noexcept override {
+    method_->follow_noise(window, model);
+  }
+
+ private:
+  std::unique_ptr<ModelMethod> method_;
+  std::atomic<std::uint64_t>& allocations_;
+};
+
+// A fit cannot say that there is no memory: what it needs of a longer window is there before.
+TEST(SamplePath, WorkersAllocateNothingWhereWindowsDouble) {
+  if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
+  EngineOptions options;
+  options.window_samples = 256;
+  options.max_hop_samples = 128;
+  options.workers = 0;
+  options.max_delay_s = 3600.0;
+  std::atomic<std::uint64_t> allocations{0};
+  ModelMethodFactory watched = joint_method({});
+  watched.method = [&allocations, made = watched.method](std::size_t window, std::size_t hop) {
+    return std::make_unique<WatchedMethod>(made(window, hop), allocations);
   };
-  EXPECT_GT(allocations_in(0, 1024), 0U) << "256 to 512 to 1024 samples";
-  EXPECT_EQ(allocations_in(1032, 4000), 0U);
-  engine.end_of_stream("imu");
-  EXPECT_EQ(allocations_in(4000, 8000), 0U) << "the second stretch has what the first one needed";
+  NullSink sink;
+  Engine engine(options, watched, sink);
+  const auto samples = testing::at_rate(testing::noisy_samples(8000), 1000);
+  engine.push("imu", samples);
+  engine.wait_idle();
+  EXPECT_EQ(allocations, 0U);
 }
 
 TEST(SamplePath, TheCounterCounts) {

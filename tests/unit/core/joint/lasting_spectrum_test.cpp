@@ -68,16 +68,51 @@ TEST(LastingSpectrum, IsInTheDatasUnit) {
   EXPECT_EQ(kept.modes()[0].share, 1.0) << "what is motion is for every window to say";
 }
 
-TEST(LastingSpectrum, StartsAnewWithOtherBins) {
+// A gap makes a fast sensor's windows short again, and they grow. What was known stays, modes by cycles per sample above all.
+TEST(LastingSpectrum, IsRestatedWhereWindowsBecomeLongerOrShorter) {
+  LastingSpectrum lasting;
+  core::ModeSet modes;
+  modes.add({.drive = 3.0});
+  lasting.observe(Bins{1.0, 2.0, 4.0}, 1.0, 1.0, 0.25);
+  lasting.keep(modes, 1.0);
+  // Between bins there are straight lines; a window has become a quarter of one, and the next counts in full.
+  lasting.observe(std::array{3.0, 3.0, 3.0, 3.0, 3.0}, 1.0, 1.0, 0.25);
+  std::array<double, 5> longer{};
+  lasting.mean(1.0, longer);
+  const std::array before{1.0, 1.5, 2.0, 3.0, 4.0};
+  for (std::size_t k = 0; k < longer.size(); ++k)
+    EXPECT_NEAR(longer[k], before[k] + 0.8 * (3.0 - before[k]), 1e-15) << k;
+  EXPECT_EQ(lasting.modes(1.0).size(), 1U);
+  // Back: means of a bin and, by half, of those beside it. A window and a quarter have been seen, and this one.
+  lasting.observe(Bins{}, 1.0, 1.0, 0.25);
+  const Bins shorter = mean_of(lasting);
+  EXPECT_NEAR(shorter[0], 5.0 / 9.0 * (longer[0] + 0.5 * longer[1]) / 1.5, 1e-15);
+  EXPECT_NEAR(shorter[1], 5.0 / 9.0 * (0.5 * longer[1] + longer[2] + 0.5 * longer[3]) / 2.0, 1e-15);
+  EXPECT_NEAR(shorter[2], 5.0 / 9.0 * (longer[4] + 0.5 * longer[3]) / 1.5, 1e-15);
+  EXPECT_EQ(lasting.modes(1.0).size(), 1U);
+}
+
+TEST(LastingSpectrum, AnOffsetStaysWhatItIsWhereWindowsChange) {
+  for (const std::size_t other : {3U, 9U, 17U, 33U}) {
+    LastingSpectrum lasting;
+    lasting.observe(std::vector<double>(9, 2.0), 1.0, 1.0, 0.5);
+    lasting.observe(std::vector<double>(other, 2.0), 1.0, 1.0, 0.5);
+    std::vector<double> mean(other);
+    lasting.mean(1.0, mean);
+    for (const double power : mean) EXPECT_EQ(power, 2.0) << other;
+  }
+}
+
+TEST(LastingSpectrum, StartsAnewWithBinsThatDoNotFit) {
   LastingSpectrum lasting;
   core::ModeSet modes;
   modes.add({});
   lasting.observe(Bins{1.0, 2.0, 3.0}, 1.0, 1.0, 0.5);
   lasting.keep(modes, 1.0);
-  lasting.observe(std::vector{5.0, 6.0}, 1.0, 1.0, 0.5);
-  std::array<double, 2> mean{};
+  lasting.observe(std::vector{5.0, 6.0, 7.0, 8.0}, 1.0, 1.0, 0.5);
+  std::array<double, 4> mean{};
   lasting.mean(1.0, mean);
-  EXPECT_EQ(mean, (std::array{5.0, 6.0}));
+  EXPECT_EQ(mean, (std::array{5.0, 6.0, 7.0, 8.0}));
   EXPECT_EQ(lasting.modes(1.0).size(), 0U);
 }
 
