@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/joint/ar_response.hpp"
 #include "core/joint/companion_blocks.hpp"
 #include "core/signal/portable_math.hpp"
 #include "core/signal/sums.hpp"
@@ -15,17 +16,9 @@ constexpr double kFaded = 1e-3;
 /// gamma has nothing above the band, so that some of its values will do: so many in a reach.
 constexpr std::size_t kValuesOfGamma = 64;
 
-/// drive / |a(w)|^2, by Horner's rule in e^-iw.
+/// drive / |a(w)|^2.
 double spectrum(const FilterBlock& block, double cosine, double sine) noexcept {
-  double real = 0.0;
-  double imaginary = 0.0;
-  for (std::size_t i = block.order; i > 0; --i) {
-    const double sum = real - block.a[i - 1];
-    real = sum * cosine + imaginary * sine;
-    imaginary = imaginary * cosine - sum * sine;
-  }
-  real += 1.0;
-  return block.drive / (real * real + imaginary * imaginary);
+  return block.drive / ar_response(std::span(block.a).first(block.order), cosine, sine);
 }
 
 }  // namespace

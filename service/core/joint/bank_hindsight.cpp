@@ -21,7 +21,6 @@ constexpr double kLeastRest = 1e-3;
 ///   z - E[z | all others] = d / (1 - h),   of variance r / (1 - h).
 /// Source: leave-one-out residuals of linear smoothers, Craven, Wahba 1979, "Smoothing noisy data with spline functions".
 void KalmanBank::look_back() noexcept {
-  if (lag_ == 0) return;
   std::array<double, kMembers> score{};
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < kMembers; ++i) {
@@ -62,13 +61,14 @@ void KalmanBank::expect_hindsight(std::size_t index) noexcept {
 }
 
 /// Weights in answers with look-ahead, w (v / u)^b with u what w was at the time that v is of: hindsight takes the place of half of what the
-/// innovations had said by then, or less; what they have said since counts in full, so that a turn is believed as soon.
+/// innovations had said by then, or less; what they have said since counts in full, so that a turn is believed as soon. A bank that answers at once looks
+/// at nothing in hindsight: v is u.
 void KalmanBank::mix() noexcept {
   const std::uint64_t time = count_ - 1 - lag_;
   double sum = 0.0;
   for (Member& member : members_) {
     const double then = count_ > lag_ ? member.weights[time % kRing] : 0.0;
-    double ratio = then > 0.0 ? member.hindsight / then : 1.0;
+    double ratio = lag_ > 0 && then > 0.0 ? member.hindsight / then : 1.0;
     for (int root = 0; root < hindsight_roots_; ++root) ratio = std::sqrt(ratio);
     member.late = member.weight * ratio;
     sum += member.late;

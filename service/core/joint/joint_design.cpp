@@ -22,6 +22,7 @@ FilterBlock colour_block(const NoiseModel& noise) noexcept {
 
 void JointFit::design(JointModel& model) noexcept {
   model.noise_variance = seen_noise();
+  model.slow_noise_variance = unit_ * whittle_.noise_without_lines().front();
   // Members of another band say nothing of this one.
   if (model.band_cycles != designer_.band_cycles()) {
     for (MemberModel& member : model.members) member.usable = false;

@@ -89,7 +89,7 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
   model.scale = scale_;
   model.full_prior = prior_of_full();
   design(model);
-  report.modes = full_.size();
+  report.modes = static_cast<std::size_t>(std::ranges::count(full_.modes(), false, &SpectralMode::slow));
 }
 
 /// What the noise is taken for: as believed, its level corrected by what the windows so far have shown, and its lines where they have shown

@@ -23,8 +23,9 @@ namespace gyrod::core {
 /// Bridges knocks (KnockBridge), takes the lines of the sensor's noise out (LineTracker) and the window minus its mean apart (EMD), starts a mode
 /// from every IMF that holds more than noise, one from all that is slow and one from a narrow tone, fits their spectra beside the noise's
 /// (WhittleFit), and makes the members of the bank (MemberDesigner).
-/// Sizes its workspace once; fit() allocates nothing and is a pure function of its input, but for members that cannot be made and keep
-/// what `model` held. One object per worker; not thread-safe.
+/// Sizes its workspace once. fit() allocates nothing where the model has room for its window (LastingSpectrum::make_room()), and is a pure function of
+/// its input and of what `model` knows of the windows before: the noise, its lines, what lasts, and members that cannot be made and stay. One object
+/// per worker; not thread-safe.
 /// Source: docs/joint.md, "Slow loop".
 class JointFit {
  public:
@@ -52,7 +53,7 @@ class JointFit {
 
   /// @param window uniformly sampled, finite, any unit
   /// @param noise  the channel's noise; where it is not usable, or of its colour nothing is believed, what NoiseTracker makes of the bands is taken
-  /// @param model  receives the members; untouched where the window does not vary
+  /// @param model  receives the members; untouched, but for `fallbacks` (0), where the window does not vary
   /// @param report receives mean, noise floor and the IMFs' figures
   /// @pre kMinSamples <= window.size() <= max_samples
   void fit(std::span<const double> window, const NoiseModel& noise, JointModel& model,

@@ -29,6 +29,9 @@ inline constexpr std::size_t kMembers = 7;
 struct BankModel {
   double mean = 0.0;            ///< of the window, the members' zero, in the data's unit
   double noise_variance = 0.0;  ///< of the noise that the members see, in the data's unit squared
+  /// Of white noise that is as strong as the noise is where it is slowest: what slow motion is compared with. A sensor's own low-pass leaves far
+  /// less in all than that.
+  double slow_noise_variance = 0.0;
   /// Limit of the signal band, cycles per sample; one half where there is none.
   double band_cycles = 0.5;
   /// Of what modes have that is not asked for where there is a signal band: beyond it, or a line's; 0 where none is set.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/signal/portable_math.hpp"
+
 namespace gyrod::core {
 namespace {
 
@@ -16,8 +18,8 @@ JointScale::JointScale(double sample_rate_hz, std::size_t window_samples) noexce
   constexpr int kStepsPerOctave = 4;
   double ratio = 1.0;
   if (sample_rate_hz > 0.0 && std::isfinite(sample_rate_hz)) {
-    const int steps =
-        static_cast<int>(std::round(kStepsPerOctave * std::log2(sample_rate_hz / kDesignRateHz)));
+    const int steps = static_cast<int>(
+        std::round(kStepsPerOctave * portable_log(sample_rate_hz / kDesignRateHz) / std::numbers::ln2));
     const double step = std::sqrt(std::numbers::sqrt2);  // roots and products are the same on every machine
     const int octaves = static_cast<int>(std::floor(static_cast<double>(steps) / kStepsPerOctave));
     ratio = std::ldexp(1.0, octaves);

@@ -114,7 +114,7 @@ BankEstimates KalmanBank::step(double sample) noexcept {
     return start_anew(sample);
   }
   feed_band();
-  slow_motion_ = motion_.follow(sample, model_.noise_variance * unit_, options_, model_.scale);
+  slow_motion_ = motion_.follow(sample, model_.slow_noise_variance * unit_, options_, model_.scale);
   BankEstimates answer;
   answer.realtime = combine(0);
   correct(sample, 0, realtime_correction_, answer.realtime);
@@ -163,6 +163,7 @@ void KalmanBank::follow_start(double sample) noexcept {
   if (count_ == 0) {
     model_ = {};
     model_.noise_variance = 1.0;
+    model_.slow_noise_variance = 1.0;
     model_.residual_variance = 1.0;
     apply_options();
   }
@@ -171,7 +172,7 @@ void KalmanBank::follow_start(double sample) noexcept {
   ++count_;
 }
 
-/// No member is left within the finite numbers: the sample answers for itself.
+/// No member is left within the finite numbers: the sample answers for itself, now and, until there have been `lag` more, with look-ahead.
 BankEstimates KalmanBank::start_anew(double sample) noexcept {
   reset();
   const BankEstimate nothing_known{.rate = sample, .variance = std::numeric_limits<double>::max()};
@@ -245,6 +246,7 @@ void KalmanBank::weigh(const std::array<double, kMembers>& surprise) noexcept {
     member.weight /= sum;
     member.weights[(count_ - 1) % kRing] = member.weight;
   }
+  if (lag_ == 0) mix();
 }
 
 }  // namespace gyrod::core

@@ -44,7 +44,7 @@ enum class SignalBandLimit : bool { kNone, kPossible };
 /// Within a signal band the answer is the low-passed signal (band_answers.hpp), from kMaxLag + 1 samples on.
 /// Before the first model, local levels answer (start_levels.hpp).
 /// A member that leaves the finite numbers is out until the next model; where none is left, all starts anew, and the sample answers
-/// for itself.
+/// for itself. As after reset(), answers with look-ahead are then of the newest sample until there have been `lag` more.
 /// Allocates nothing after construction; finite for finite input. Not thread-safe.
 /// Source: docs/joint.md; fixed lag by innovations: Anderson, Moore 1979, "Optimal filtering", section 7.3; weights: Herbster, Warmuth
 /// 1998, "Tracking the best expert" (fixed share).
@@ -64,7 +64,7 @@ class KalmanBank {
   void bound_start(double variance) noexcept { start_.bound_guess(variance); }
   /// Takes z[t].
   BankEstimates step(double sample) noexcept;
-  /// x[t-age] given all up to z[t], 0 <= age <= lag.
+  /// x[t-age] given all up to z[t], 0 <= age <= lag. @pre more than age samples since the start, reset() or one that started anew
   [[nodiscard]] BankEstimate held(std::size_t age) const noexcept;
   /// Mean of nu^2 / S over about the last kFitMemory samples, at high rates the same seconds (JointScale): 1 where the model explains what comes
   /// in.
@@ -80,8 +80,6 @@ class KalmanBank {
   /// Ring of what a member made of the last samples; a power of two beyond kMaxLag.
   static constexpr std::size_t kRing = 64;
   static_assert(kRing > kMaxLag && (kRing & (kRing - 1)) == 0);
-  /// Most that one sample says against a member, in parts of its variance: a million deviations.
-  static constexpr double kMostSurprise = 1e12;
 
   struct Member {
     std::array<double, kMaxStates> x{};

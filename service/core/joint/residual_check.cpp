@@ -4,19 +4,13 @@
 #include <cmath>
 
 namespace gyrod::core {
-namespace {
-
-/// Most that one residual may say, d^2 / R: a million deviations. A knock is over soon, and is to be forgotten soon.
-constexpr double kMostSquare = 1e12;
-
-}  // namespace
 
 BankEstimate ResidualCheck::apply(double sample, BankEstimate estimate, double expected_variance,
                                   double beside, const JointOptions& options) noexcept {
   if (!(expected_variance > 0.0) || !std::isfinite(expected_variance)) return estimate;
   const double residual = sample - estimate.rate;
   const double most = std::max(options.lone_limit * beside / expected_variance, 1.0);
-  const double square = std::min({residual * residual / expected_variance, most, kMostSquare});
+  const double square = std::min({residual * residual / expected_variance, most, kMostSurprise});
   mean_square_ += (std::min(square, kMostToMean) - mean_square_) / options.residual_memory;
   const double alone = square > options.residual_limit ? square : 0.0;
   const double lately = mean_square_ > options.residual_mean_limit ? mean_square_ : 0.0;

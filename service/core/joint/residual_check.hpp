@@ -8,6 +8,8 @@ namespace gyrod::core {
 
 /// Most that one square of a residual or an innovation, in parts of its variance, adds to a mean of them: a knock is over soon, and is to be forgotten soon.
 inline constexpr double kMostToMean = 100.0;
+/// Most that such a square says: a million deviations. What is multiplied with it stays a number.
+inline constexpr double kMostSurprise = 1e12;
 
 /// Of one output. What a good estimate e takes off a sample z is noise, of a variance R that is known: d^2 / R with d = z - e is 1 at the
 /// most in the mean, and hardly ever above 25. Where it is more, e is what is wrong: a knock that no model expected, smeared by the filters over

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/joint/ar_response.hpp"
 #include "core/signal/levinson.hpp"
 #include "core/signal/portable_math.hpp"
 #include "core/signal/sums.hpp"
@@ -77,21 +78,13 @@ void WhittleFit::observe(std::span<const double> periodogram) noexcept {
   std::ranges::copy(periodogram, observed_.begin());
 }
 
-/// noise_spectrum() without lines at every bin, by Horner's rule in z = e^-iw.
+/// noise_spectrum() without lines at every bin.
 void WhittleFit::sum_noise(const NoiseModel& noise) noexcept {
   const double* const cosine = cosines_.data() + bins_;
   const double* const sine = sines_.data() + bins_;
-  for (std::size_t k = 0; k < bins_; ++k) {
-    double real = 0.0;
-    double imaginary = 0.0;
-    for (std::size_t i = noise.colour_order; i > 0; --i) {
-      const double sum = real - noise.colour[i - 1];
-      real = sum * cosine[k] + imaginary * sine[k];
-      imaginary = imaginary * cosine[k] - sum * sine[k];
-    }
-    real += 1.0;
-    rest_[k] = noise.white_variance + noise.colour_variance / (real * real + imaginary * imaginary);
-  }
+  const auto colour = std::span(noise.colour).first(noise.colour_order);
+  for (std::size_t k = 0; k < bins_; ++k)
+    rest_[k] = noise.white_variance + noise.colour_variance / ar_response(colour, cosine[k], sine[k]);
 }
 
 std::span<const double> WhittleFit::explained(const ModeSet& modes) noexcept {

@@ -177,5 +177,36 @@ TEST(Hindsight, OneSampleDoesNotDecideAlone) {
   EXPECT_NEAR(share(1e2), share(1e4), 0.01);
 }
 
+// A bank that answers at once looks at nothing in hindsight: the later answers that it compares its own with weigh members by what innovations have
+// said, of every sample.
+TEST(Hindsight, OfABankThatAnswersAtOnceIsWhatInnovationsSay) {
+  constexpr std::size_t kLater = KalmanBank::kLeastLater;
+  JointOptions options = bare();
+  options.most_later_gain = options.most_later_loss = 0.3;
+  options.later_memory = 64.0;
+  JointModel model = two_members();
+  KalmanBank bank(options, 0);
+  KalmanBank mixed(bare(), 0);
+  KalmanBank calm(bare(), kLater);
+  KalmanBank quick(bare(), kLater);
+  bank.use(model);
+  mixed.use(model);
+  calm.use(single(blocks()));
+  quick.use(single(lively()));
+  core::LaterGain expected;
+  Signal answers;
+  const Signal z = simulated(lively(), 600, 4);
+  for (std::size_t t = 0; t < z.size(); ++t) {
+    answers.push_back(mixed.step(z[t]).realtime.rate);
+    const core::BankEstimates a = calm.step(z[t]);
+    const core::BankEstimates b = quick.step(z[t]);
+    ASSERT_NEAR(bank.step(z[t]).realtime.rate, expected.apply(answers[t], 0.0, options, {}), 1e-6) << t;
+    if (t < kLater) continue;
+    const double weight = (answers[t] - b.realtime.rate) / (a.realtime.rate - b.realtime.rate);
+    const double later = b.denoised.rate + weight * (a.denoised.rate - b.denoised.rate);
+    expected.compare(later, answers[t - kLater], options, {});
+  }
+}
+
 }  // namespace
 }  // namespace gyrod

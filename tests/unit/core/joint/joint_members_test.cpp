@@ -195,6 +195,7 @@ TEST(JointMembers, OfTheFullSetCountByTheirLikelihood) {
   EXPECT_NEAR(made_of(z, core::white_noise(1.0), options).model.full_prior, prior / 3.0, 1e-12 * prior);
 }
 
+// Modes are counted beside the slowest, which the full one has, too.
 TEST(JointMembers, AreCountedByTheFullOnesModes) {
   const Made made = made_of(testing::sum(shaking(9.0, 1), testing::white_noise(kMembersWindow, 1), 1.0),
                             core::white_noise(1.0));
@@ -202,8 +203,24 @@ TEST(JointMembers, AreCountedByTheFullOnesModes) {
     const auto count = std::ranges::count(blocks_of(made, kind), core::kModeOrder, &FilterBlock::order);
     return static_cast<std::size_t>(count);
   };
-  EXPECT_EQ(made.report.modes, modes_in(MemberKind::kFull));
-  EXPECT_LT(modes_in(MemberKind::kPruned), made.report.modes);
+  EXPECT_EQ(made.report.modes + 1, modes_in(MemberKind::kFull));
+  EXPECT_LT(modes_in(MemberKind::kPruned), made.report.modes + 1);
+}
+
+// AR(1) noise with pole 0.9 has 1 / (1 - 0.9)^2 of its drive where it is slow, and 1 / (1 - 0.9^2) in all.
+TEST(JointMembers, CompareSlowMotionWithTheNoiseWhereThatIsSlow) {
+  core::NoiseModel noise;
+  noise.white_variance = 0.5;
+  noise.colour_order = 1;
+  noise.colour[0] = 0.9;
+  noise.colour_variance = 0.1;
+  const Signal still =
+      testing::times(testing::autoregressive(std::array{0.9}, kMembersWindow, 5), std::sqrt(0.1));
+  const Made made =
+      made_of(testing::sum(still, testing::white_noise(kMembersWindow, 6), std::sqrt(0.5)), noise);
+  const double slow = 0.5 + 0.1 / (0.1 * 0.1);
+  const double all = 0.5 + 0.1 / (1.0 - 0.9 * 0.9);
+  EXPECT_NEAR(made.model.slow_noise_variance / made.model.noise_variance, slow / all, 1e-9);
 }
 
 // The noise's line, last of the blocks, is as strong as it was believed, as much more as the windows show all of the noise to be, and as much less where that is

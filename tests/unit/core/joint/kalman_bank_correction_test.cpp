@@ -44,7 +44,7 @@ JointModel moving(double drive) {
   BlockSet set = blocks();
   for (core::FilterBlock& block : set.blocks) block.drive *= block.signal > 0.0 ? drive : 1.0;
   JointModel model = single(set);
-  model.noise_variance = kBankNoise;
+  model.noise_variance = model.slow_noise_variance = kBankNoise;
   return model;
 }
 
@@ -116,7 +116,7 @@ TEST(KalmanBankCorrection, KnowsWhereNothingSlowMoves) {
   options.correction_rate = 0.006;
   options.residual_weight = 0.0;
   JointModel model = single(blocks());
-  model.noise_variance = kBankNoise;
+  model.noise_variance = model.slow_noise_variance = kBankNoise;
   KalmanBank plain(bare(), kLookAhead);
   KalmanBank bank(options, kLookAhead);
   plain.use(model);
@@ -154,7 +154,7 @@ TEST(KalmanBankCorrection, AResetForgetsThatNothingMoved) {
   JointOptions options = bare();
   options.correction_rate = 0.006;
   JointModel model = single(blocks());
-  model.noise_variance = kBankNoise;
+  model.noise_variance = model.slow_noise_variance = kBankNoise;
   KalmanBank bank(options, 0);
   bank.use(model);
   const Signal z = testing::times(testing::white_noise(4000, 4), std::sqrt(kBankNoise));

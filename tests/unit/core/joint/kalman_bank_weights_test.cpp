@@ -243,12 +243,12 @@ TEST(KalmanBank, TheMeanOfInnovationsCountsTenDeviationsAtTheMost) {
 // The scale of a model acts on what the bank was given, and on nothing else. After motion nothing but noise: what is said of slow motion takes
 // tens of thousands of samples to fade there.
 void take_all_at_the_models_scale(double rate_hz, std::size_t window) {
-  SCOPED_TRACE(testing::Message() << rate_hz << " Hz, window " << window);
+  SCOPED_TRACE(::testing::Message() << rate_hz << " Hz, window " << window);
   Signal z = simulated(blocks(), 500, 9);
   const Signal still = testing::times(testing::white_noise(30000, 10), std::sqrt(kBankNoise));
   z.insert(z.end(), still.begin(), still.end());
   JointModel model = single(blocks());
-  model.noise_variance = kBankNoise;
+  model.noise_variance = model.slow_noise_variance = kBankNoise;
   BlockSet lively = blocks();
   lively.blocks[1].drive *= 10.0;
   ASSERT_TRUE(MemberDesigner().design(lively, kBankNoise, model.member(MemberKind::kPruned)));

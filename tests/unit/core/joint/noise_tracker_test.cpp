@@ -205,7 +205,6 @@ TEST(NoiseTracker, BelievesUnknownNoiseThatDoublesWithinFortyWindows) {
   EXPECT_NEAR(tracker.level(), 4.0, 0.1);
 }
 
-// The sensor is as it was; half as much noise is believed from now on.
 // Windows of half a second follow one another as quickly as those of nine; what shakes for a minute is not noise for that.
 TEST(NoiseTracker, ForgetsByTheSecondNotByTheWindow) {
   NoiseTracker tracker;
@@ -216,6 +215,7 @@ TEST(NoiseTracker, ForgetsByTheSecondNotByTheWindow) {
   EXPECT_LT(tracker.level(), 1.3 * before);
 }
 
+// The sensor is as it was; half as much noise is believed from now on.
 TEST(NoiseTracker, RestatesWhatItKnowsWhereAnotherModelIsBelieved) {
   NoiseTracker tracker;
   watch(tracker, spectrum(0.7), 96, coloured(2.0));

@@ -109,7 +109,7 @@ TEST(ResidualCheck, StaysFinite) {
 /// A bank of one member whose model knows the noise of testing::simulated.
 core::JointModel model() {
   core::JointModel model = testing::single(testing::blocks());
-  model.noise_variance = testing::kBankNoise;
+  model.noise_variance = model.slow_noise_variance = testing::kBankNoise;
   model.residual_variance = testing::kBankNoise;
   return model;
 }
