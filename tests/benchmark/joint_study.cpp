@@ -4,7 +4,7 @@
 // Keys (defaults): noise=1x (ADIS16405 run and axis; mx: MPU6050), level=1 (what the noise is believed to be, in parts of its deviation), white=0 (1:
 // its colour is unknown), source=1 (0: nothing is known), learned=0 (1: by the learner, on 60 s at rest), window=1024, hop=32,
 // rate=120 (Hz: the drive resampled by lines, the noise sample by sample), told=1 (0: the estimator does not know the rate), start=0
-// (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), sine=0 (amplitude of a sine in the noise and in what it is calibrated on, in deviations of the noise), sine_at=0.2, second_sine_at=0 (cycles per sample; 0: none),
+// (first sample of the noise), spikes=0 (1000: one sample in so many is wrong by 12 deviations of the noise), sine=0 (amplitude of a sine in the noise and in what it is calibrated on, in deviations of the noise), sine_at=0.2, second_sine_at=0 (cycles per sample; 0: none), noise_low_pass=0 (Hz: the sensor's own, second order; 0: none),
 // begin=0 (s of the drive that the estimator does not see), from=20 and to=80 (s: the part that is judged), rivals=1 (0: no Butterworth filters, which take longest), axes=xyz, digits=3 (of RMSE), band=0 (Hz: the signal band and what of the truth is asked for), motion=car (hand: recordings of sensors
 // that were moved by hand, their own rates the truth; smooth: swell, roundabouts and bends, made; simulated: six drives of gyrod simulate, 100 Hz; shaking: a car's roof, 100 Hz, 200 s from shaking_from=30 on; these have no prototype to compare with); and core::JointOptions' members.
 #include <algorithm>
@@ -168,9 +168,11 @@ int study(const Arguments& arguments) {
     add_spikes(row, number(arguments, "spikes", 0));
     for (const auto& [key, cycles] : {std::pair("sine_at", 0.2), std::pair("second_sine_at", 0.0)})
       test::add_sine(row, number(arguments, "sine", 0), number(arguments, key, cycles));
-    const core::NoiseModel noise = believed(row, arguments);
     begin_at(row, number(arguments, "begin", 0));
     if (motion == "car" || motion == "smooth") test::resample(row, number(arguments, "rate", 120));
+    const double low_pass_hz = number(arguments, "noise_low_pass", 0);
+    if (low_pass_hz > 0.0) test::low_pass_noise(row, low_pass_hz);
+    const core::NoiseModel noise = believed(row, arguments);
     if (setting.max_signal_hz > 0.0) test::limit(row, setting.max_signal_hz);
     const test::JointFigures figures = test::joint_figures(row, noise, setting);
     std::printf("%-12s ", row.name.c_str());

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/evaluation/butterworth.hpp"
 #include "core/evaluation/tuning.hpp"
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
@@ -124,6 +125,16 @@ inline void resample(DriveRow& row, double rate_hz) {
   row.truth_dps = std::move(truth);
   row.noisy_dps = std::move(noisy);
   row.rate_hz = rate_hz;
+}
+
+/// The noise as of a sensor with a low-pass of its own, second order, and so what it is calibrated on. @pre the row is at its sample rate
+inline void low_pass_noise(DriveRow& row, double cutoff_hz) {
+  const auto sections = core::butterworth(2, cutoff_hz / row.rate_hz);
+  core::filter_forward(sections, row.still_dps);
+  const std::vector<double> motion = bridged(row.truth_dps);
+  for (std::size_t n = 0; n < motion.size(); ++n) row.noisy_dps[n] -= motion[n];
+  core::filter_forward(sections, row.noisy_dps);
+  for (std::size_t n = 0; n < motion.size(); ++n) row.noisy_dps[n] += motion[n];
 }
 
 /// What is asked of the row where there is a signal band.
