@@ -66,8 +66,7 @@ void tell(const DenoiseSummary::Source& source, const DenoiseSummary& summary, c
                static_cast<unsigned long long>(counts.published - counts.passed_through),
                static_cast<unsigned long long>(counts.windows), source.method.c_str(),
                summary.noise_words().c_str());
-  for (const std::string& note : DenoiseSummary::notes(source, counts))
-    std::fprintf(stderr, "  %s\n", note.c_str());
+  for (const std::string& note : summary.notes(source, counts)) std::fprintf(stderr, "  %s\n", note.c_str());
 }
 
 /// What became of the recording.

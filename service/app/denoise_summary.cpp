@@ -1,6 +1,7 @@
 #include "app/denoise_summary.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
@@ -60,6 +61,10 @@ void DenoiseSummary::add(const stream::NoiseReport& report) {
     axes_[i].imfs.add(static_cast<double>(window.imf_count));
     axes_[i].j.add(static_cast<double>(window.j));
     axes_[i].k.add(static_cast<double>(window.k));
+    if (!report.model_fit) continue;
+    const stream::ModelFit& fit = (*report.model_fit)[i];
+    axes_[i].misfit.add(fit.misfit ? 1.0 : 0.0);
+    if (fit.wrong_noise) axes_[i].noise_ratio.add(fit.noise_ratio);
   }
 }
 
@@ -70,7 +75,27 @@ std::string DenoiseSummary::noise_words() const {
   return source + " from sample " + std::to_string(noise_source_since_) + " on";
 }
 
-std::vector<std::string> DenoiseSummary::notes(const Source& source, const stream::Counts& counts) {
+/// Of axes that are flagged in a hundredth of the windows or more. Empty where none is.
+std::string DenoiseSummary::misfit_words() const {
+  constexpr double kFlagged = 0.01;
+  std::string words;
+  bool wrong_noise = false;
+  for (std::size_t i = 0; i < stream::kAxes; ++i) {
+    const Axis& axis = axes_[i];
+    if (axis.misfit.mean() < kFlagged) continue;
+    words += fmt::format("{}{} in {:.0f} % of the windows", words.empty() ? "" : ", ", stream::kAxisNames[i],
+                         100.0 * axis.misfit.mean());
+    if (!(axis.noise_ratio.mean() > 0.0)) continue;
+    wrong_noise = true;
+    words += fmt::format(" (noise of {:.2g} times the deviation that is believed)", axis.noise_ratio.mean());
+  }
+  if (words.empty()) return words;
+  return "the model does not fit: " + words + "; " +
+         (wrong_noise ? "calibrate the sensor again"
+                      : "do not trust the deviations that are published there");
+}
+
+std::vector<std::string> DenoiseSummary::notes(const Source& source, const stream::Counts& counts) const {
   std::vector<std::string> notes;
   const auto note = [&notes](std::uint64_t count, const std::string& what) {
     if (count > 0) notes.push_back(std::to_string(count) + " " + what);
@@ -85,8 +110,7 @@ std::vector<std::string> DenoiseSummary::notes(const Source& source, const strea
   if (!source.rate_note.empty()) notes.push_back(source.rate_note);
   if (!source.calibration_note.empty())
     notes.push_back("the calibration of its noise " + source.calibration_note);
-  note(counts.misfits, counts.misfits == 1 ? "time the noise of an axis ceased to be as believed"
-                                           : "times the noise of an axis ceased to be as believed");
+  if (const std::string misfit = misfit_words(); !misfit.empty()) notes.push_back(misfit);
   return notes;
 }
 
@@ -103,7 +127,9 @@ nlohmann::ordered_json DenoiseSummary::axes_json(bool whole_record) const {
                        {"output_noise_radps", axis.output_noise.mean()},
                        {"mean_imfs", axis.imfs.mean()},
                        {"mean_j", axis.j.mean()},
-                       {"mean_k", axis.k.mean()}};
+                       {"mean_k", axis.k.mean()},
+                       {"misfit_share", axis.misfit.mean()},
+                       {"noise_ratio", axis.noise_ratio.mean() > 0.0 ? axis.noise_ratio.mean() : 1.0}};
     if (!whole_record) continue;
     axes[kNames[i]]["direct_model"] = model_json(longest_[i].direct_model);
     axes[kNames[i]]["imfs"] = imfs_json(longest_[i]);

@@ -52,7 +52,7 @@ class DenoiseSummary {
   [[nodiscard]] std::string noise_words() const;
 
   /// What a user should know of it besides: what was lost, refused, assumed or did not fit; a line each.
-  [[nodiscard]] static std::vector<std::string> notes(const Source& source, const stream::Counts& counts);
+  [[nodiscard]] std::vector<std::string> notes(const Source& source, const stream::Counts& counts) const;
   /// Hz, as of the last window; 0 before the first.
   [[nodiscard]] double sample_rate_hz() const noexcept { return sample_rate_hz_; }
 
@@ -68,7 +68,11 @@ class DenoiseSummary {
     RunningMoments imfs;
     RunningMoments j;
     RunningMoments k;
+    RunningMoments misfit;  ///< 1 in windows of which the model does not explain the input, else 0
+    RunningMoments
+        noise_ratio;  ///< stream::ModelFit::noise_ratio, in windows in which the noise is not as believed
   };
+  [[nodiscard]] std::string misfit_words() const;
   [[nodiscard]] nlohmann::ordered_json axes_json(bool whole_record) const;
 
   std::array<Axis, stream::kAxes> axes_;

@@ -161,10 +161,20 @@ class RowJudge {
     if (!steps_.next()) return;
     const core::Contender plain = one.run(row_.noisy_dps);
     add_histogram(one.name, plain);
+    if (plain.misfit) note_fit(plain);
     if (!steps_.next()) return;
     const core::GuardCase on{row_.noisy_dps, row_.truth_dps, options_.range, rate_hz_,
                              options_.settings.denoise.max_signal_hz};
     judged_.guards.push_back({one.name, core::guards(one, plain, on)});
+  }
+
+  void note_fit(const core::Contender& contender) {
+    const auto begin = contender.misfit->begin();
+    const auto flagged = std::count(begin + static_cast<std::ptrdiff_t>(options_.range.begin),
+                                    begin + static_cast<std::ptrdiff_t>(options_.range.end), true);
+    judged_.misfit_share =
+        static_cast<double>(flagged) / static_cast<double>(options_.range.end - options_.range.begin);
+    judged_.noise_ratio = contender.noise_ratio;
   }
 
   void take_turns(std::span<const core::Method> filters) {

@@ -77,6 +77,9 @@ struct JudgedRow {
   // To methods that take a model of it.
   NoiseKnownBy noise_known_by = NoiseKnownBy::kNothing;
   std::optional<std::size_t> noise_known_from_sample;
+  std::optional<double>
+      misfit_share;  ///< of the judged samples at which their model says that it does not fit; nothing: none has one
+  double noise_ratio = 1.0;  ///< Contender::noise_ratio
   std::vector<JudgedEstimator> estimators;
   // All methods with the lag of the configuration, and for each lag that they answer with the best causal Butterworth: "Butterworth" for
   // the configuration's, "Butterworth, lag 0".

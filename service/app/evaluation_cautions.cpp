@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -68,12 +69,49 @@ void tell_of_noise_models(const Evaluation& evaluation, std::vector<std::string>
   }
 }
 
+/// Shorter spells are knocks, and rough road.
+constexpr double kMuchMisfit = 0.2;
+
+/// What to look at where noise is not as it is believed to be.
+const char* suspicion(const EvaluationRows& rows, NoiseKnownBy by) noexcept {
+  switch (by) {
+    case NoiseKnownBy::kCalibration:
+      return "is the calibration of this sensor, at this rate?";
+    case NoiseKnownBy::kSpareSamples:
+      return rows.signal_is_truth ? "the rates that are taken for the truth have noise of their own"
+                                  : "is the sensor at rest in all of the noise file?";
+    case NoiseKnownBy::kRest:
+      return "was the sensor at rest where it was learned?";
+    case NoiseKnownBy::kNothing:
+      break;
+  }
+  return "it changes";
+}
+
+/// The daemon would flag these samples.
+void tell_of_misfits(const Evaluation& evaluation, std::vector<std::string>& cautions) {
+  const auto& [rows, options, judged] = evaluation;
+  for (const JudgedRow& row : judged) {
+    if (!(row.misfit_share.value_or(0.0) > kMuchMisfit)) continue;
+    const std::string why = row.noise_ratio != 1.0
+                                ? fmt::format("the noise has {:.2g} times the deviation that is believed; {}",
+                                              row.noise_ratio, suspicion(rows, row.noise_known_by))
+                                : std::string("the deviations that they claim are not to be trusted");
+    cautions.push_back(
+        rows_of({&row}, judged.size()) +
+        fmt::format("the model of joint and realtime does not fit {:.0f} % of the judged samples "
+                    "(FLAG_MODEL_MISFIT): {}",
+                    100.0 * *row.misfit_share, why));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> cautions_of(const Evaluation& evaluation) {
   std::vector<std::string> all = evaluation.rows.cautions;
   if (std::ranges::any_of(evaluation.options.methods, takes_noise_model))
     tell_of_noise_models(evaluation, all);
+  tell_of_misfits(evaluation, all);
   return all;
 }
 

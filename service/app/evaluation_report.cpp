@@ -157,6 +157,8 @@ Json row_json(const JudgedRow& row) {
               {"noise_model", noise_model_words(row)},
               {"noise_known_from_sample",
                row.noise_known_from_sample ? Json(*row.noise_known_from_sample) : Json(nullptr)},
+              {"misfit_share", number(row.misfit_share)},
+              {"noise_ratio", row.noise_ratio},
               {"estimators", estimators_json(row)},
               {"guards", guards_json(row)},
               {"turns", turns_json(row)},

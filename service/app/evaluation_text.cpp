@@ -26,9 +26,12 @@ std::string padded(const std::string& text, int width) {
   std::string padding(wanted, ' ');
   return padding;
 }
-/// Never runs into its neighbour.
 std::string left(const std::string& text, int width) { return text + padded(text, width); }
-std::string right(const std::string& text, int width = kNumberWidth) { return padded(text, width) + text; }
+/// Never runs into its neighbour.
+std::string right(const std::string& text, int width = kNumberWidth) {
+  const std::string padding = padded(text, width);
+  return (padding.empty() ? " " : padding) + text;
+}
 
 /// What rounds to nothing has no sign.
 std::string fixed(double value, int decimals) {
@@ -211,9 +214,10 @@ std::string evaluation_text(const Evaluation& evaluation) {
       "  RMSE of the error less its mean; angle error, rms over windows; error in parts of the claimed "
       "deviation, with and\n"
       "  without the mean (1 is right, more is too bold). Guards and turns: methods at the lag of the "
-      "configuration, " +
+      "configuration,\n  " +
       std::to_string(evaluation.options.settings.engine.lag_samples) +
-      " samples, realtime at 0, beside a Butterworth for each; in brackets: not applicable.\n";
+      " samples, realtime at 0, beside a Butterworth for each; in brackets: not judged, for a reason that "
+      "guards.csv has.\n";
   return text;
 }
 

@@ -29,16 +29,19 @@ class Answering {
     contender.lag_samples = lag_;
     contender.estimate.assign(samples, std::numeric_limits<double>::quiet_NaN());
     contender.std.emplace(samples, std::numeric_limits<double>::quiet_NaN());
+    contender.misfit.emplace(samples, false);
   }
 
   void step(std::size_t t, double sample) {
     const stream::Estimates both = filter->step(sample);
+    (*contender.misfit)[t] = filter->model_fit().misfit;
     if (t >= lag_) put(t - lag_, realtime_ ? both.realtime : both.denoised);
   }
 
   /// Adds what would still come after the last sample.
   void finish(std::size_t hop) {
     contender.seams = core::seams_every(hop, lag_);
+    contender.noise_ratio = filter->model_fit().noise_ratio;
     const std::size_t samples = contender.estimate.size();
     for (std::size_t age = 0; age < std::min(lag_, samples); ++age) put(samples - 1 - age, filter->held(age));
   }

@@ -17,12 +17,22 @@ namespace gyrod::stream {
   return 2 * same > samples.size();
 }
 
-/// Sets WindowInput::others_noise. Axes that hardly change do not count.
+/// What is quieter than every other axis by this much, as a variance, is made, not measured: a planar robot in a simulator.
+inline constexpr double kNoNoise = 1e-3;
+
+/// Sets WindowInput::others_noise. Axes that hardly change, and such that have no noise, do not count.
 /// @param noise variance that the models of the axes have found so far; 0 where one has none
 inline void tell_others_noise(std::array<WindowInput, kAxes>& windows,
                               std::array<double, kAxes> noise) noexcept {
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     if (hardly_changes(windows[axis].samples)) noise[axis] = 0.0;
+  }
+  const auto quiet = [noise](std::size_t axis) {
+    const double others = core::least_of_others(noise, axis);
+    return others > 0.0 && noise[axis] < kNoNoise * others;
+  };
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    if (quiet(axis)) noise[axis] = 0.0;
   }
   for (std::size_t axis = 0; axis < kAxes; ++axis)
     windows[axis].others_noise = core::least_of_others(noise, axis);

@@ -114,6 +114,20 @@ TEST_F(EvaluateNoise, SaysFromWhereOnItIsKnown) {
                     ContainsRegex("caution: the noise is known from sample [0-9]+ on, after the record's")));
 }
 
+// A user would conclude that the estimator is bad, not that the calibration is another sensor's.
+TEST_F(EvaluateNoise, SaysWhereACalibrationDoesNotFit) {
+  write_file("in.csv", RestAndSwing{}.text());
+  ASSERT_EQ(run({"calibrate", "--arw", "120", "--rate", "100", "-o", path("other.json")}).exit_code,
+            ExitCode::kDone);
+  const json other = figures({"--from", "40s", "--calibration", path("other.json")});
+  EXPECT_EQ(other["rows"][0]["misfit_share"], 1.0);
+  EXPECT_LT(other["rows"][0]["noise_ratio"], 0.3);
+  EXPECT_THAT(other["cautions"].dump(), HasSubstr("is the calibration of this sensor, at this rate?"));
+  const json learned = figures({"--from", "40s"});
+  EXPECT_LT(learned["rows"][0]["misfit_share"], 0.05);
+  EXPECT_EQ(learned["rows"][0]["noise_ratio"], 1.0);
+}
+
 TEST_F(EvaluateNoise, IsGuessedWhereTheRecordShowsNoRest) {
   write_file("in.csv", RestAndSwing{.rest_s = 5}.text());
   const json all = figures(configured(R"({"source": "standstill"})"));

@@ -37,6 +37,10 @@ struct Contender {
   /// The standard deviation that the estimator itself claims for each estimate; nothing: it claims none.
   std::optional<std::vector<double>> std;
   std::optional<SeamPattern> seams;
+  /// Whether its own model says, when a sample comes in, that it does not explain what comes; nothing: it has no model.
+  std::optional<std::vector<bool>> misfit;
+  /// The noise's standard deviation as the model has it in the end, in parts of what is believed, where it says that that is wrong; else 1.
+  double noise_ratio = 1.0;
 };
 
 /// An estimator that can be run on any record: guards run it on records with a swing added, turns on records of their own.

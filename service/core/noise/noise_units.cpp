@@ -27,14 +27,24 @@ NoiseModel from_noise_density(double density, double sample_rate_hz) noexcept {
   return white_noise(density * density * 0.5 * sample_rate_hz);
 }
 
+/// Wider low-passes are none, as far as samples tell.
+constexpr double kWidest = 100.0;
+
 NoiseModel behind_low_pass(const NoiseModel& white, double bandwidth_hz, double sample_rate_hz) noexcept {
   constexpr double kLeft = 3e-4;
-  if (bandwidth_hz >= 0.5 * sample_rate_hz) return white;
+  const double width = bandwidth_hz / sample_rate_hz;
+  const auto passes = [width](double cycles) {
+    const double square = (cycles / width) * (cycles / width);
+    return 1.0 / (1.0 + square * square);
+  };
+  // What is faster than half the sample rate folds back; from ten times the bandwidth on it is less than a thousandth of all.
+  const auto folds = static_cast<int>(std::ceil(10.0 * std::min(width, kWidest)));
   NoiseSpectrum power{};
   for (std::size_t k = 0; k < power.size(); ++k) {
-    const double frequency_hz = sample_rate_hz * static_cast<double>(k) / static_cast<double>(kNoiseSegment);
-    const double square = (frequency_hz / bandwidth_hz) * (frequency_hz / bandwidth_hz);
-    power[k] = white.white_variance * (1.0 / (1.0 + square * square) + kLeft);
+    const double cycles = static_cast<double>(k) / static_cast<double>(kNoiseSegment);
+    double passed = kLeft;
+    for (int fold = -folds; fold <= folds; ++fold) passed += passes(cycles + fold);
+    power[k] = white.white_variance * passed;
   }
   return fit_noise(power).value_or(white);
 }

@@ -24,9 +24,10 @@ namespace gyrod::core {
 [[nodiscard]] NoiseModel from_angle_random_walk(double random_walk, double sample_rate_hz) noexcept;
 
 /// White noise behind a sensor's own low-pass of second order, as it is where the filter stops nothing:
-///   S(f) = white (1 / (1 + (f / bandwidth)^4) + 0.0003),   fitted by fit_noise().
+///   S(f) = white (sum over k of 1 / (1 + ((f + k rate) / bandwidth)^4) + 0.0003),   fitted by fit_noise():
+/// what is faster than half the rate folds back, so that a wide low-pass leaves more than a narrow one at any rate.
 /// Filters differ where they stop, and nobody knows what is left there: this is a guess, good enough to tell noise from motion where it passes.
-/// @param bandwidth_hz at -3 dB  @return `white` itself where the bandwidth is at least half the rate
+/// @param bandwidth_hz at -3 dB
 /// @pre white.white_variance, both frequencies above 0
 [[nodiscard]] NoiseModel behind_low_pass(const NoiseModel& white, double bandwidth_hz,
                                          double sample_rate_hz) noexcept;

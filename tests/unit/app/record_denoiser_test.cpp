@@ -78,6 +78,34 @@ TEST(DenoiseRecord, WindowedIsWhatTheOfflineDenoiserGives) {
   }
 }
 
+stream::NoiseReport reported(bool misfit, double noise_ratio) {
+  stream::NoiseReport report;
+  report.model_fit.emplace();
+  (*report.model_fit)[1] = {.misfit = misfit, .wrong_noise = noise_ratio != 1.0, .noise_ratio = noise_ratio};
+  return report;
+}
+
+// Of which axis, for how long, and what to do: a calibration that is wrong all the time is not one time wrong.
+TEST(DenoiseSummary, SaysHowMuchOfTheTimeTheModelOfWhichAxisDoesNotFit) {
+  app::DenoiseSummary fitting;
+  fitting.add(reported(false, 1.0));
+  EXPECT_TRUE(fitting.notes({}, {}).empty());
+  app::DenoiseSummary unlikely;
+  for (const bool misfit : {true, false, false, false}) unlikely.add(reported(misfit, 1.0));
+  ASSERT_EQ(unlikely.notes({}, {}).size(), 1U);
+  EXPECT_EQ(unlikely.notes({}, {})[0],
+            "the model does not fit: y in 25 % of the windows; do not trust the deviations that are "
+            "published there");
+  app::DenoiseSummary wrong;
+  for (const double ratio : {0.2, 0.4}) wrong.add(reported(true, ratio));
+  ASSERT_EQ(wrong.notes({}, {}).size(), 1U);
+  EXPECT_EQ(wrong.notes({}, {})[0],
+            "the model does not fit: y in 100 % of the windows (noise of 0.3 times the deviation that is "
+            "believed); "
+            "calibrate the sensor again");
+  EXPECT_NE(wrong.json({}, {}).find("\"misfit_share\": 1.0"), std::string::npos);
+}
+
 TEST(DenoiseRecord, EstimatesAreWhatTheOfflineDenoiserGives) {
   const files::Record record = record_of(kLong);
   for (const auto kind : {app::EstimateKind::kDenoised, app::EstimateKind::kRealtime}) {

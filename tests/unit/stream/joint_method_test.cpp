@@ -147,8 +147,11 @@ TEST(OthersNoise, IsNotThatOfAnAxisThatHardlyChanges) {
   EXPECT_EQ(windows[1].others_noise, 3.0);
   EXPECT_EQ(windows[2].others_noise, 2.0);
   windows[2].samples = moving;
+  tell_others_noise(windows, {3.0, 2.0, 0.01});
+  EXPECT_EQ(windows[0].others_noise, 0.01);
   tell_others_noise(windows, {3.0, 2.0, 1e-9});
-  EXPECT_EQ(windows[0].others_noise, 1e-9);
+  EXPECT_EQ(windows[0].others_noise, 2.0)
+      << "a simulator's plane: what has no noise says nothing of the others'";
   EXPECT_FALSE(hardly_changes({}));
 }
 
