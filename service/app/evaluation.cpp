@@ -63,8 +63,13 @@ std::vector<std::size_t> own_lags(const EvaluationOptions& options) {
 
 class RowJudge {
  public:
-  RowJudge(const EvaluationRow& row, double rate_hz, const EvaluationOptions& options, Steps& steps)
-      : row_(row), rate_hz_(rate_hz), options_(options), steps_(steps) {
+  RowJudge(const EvaluationRow& row, const EvaluationRows& rows, const EvaluationOptions& options,
+           Steps& steps)
+      : row_(row),
+        rate_hz_(rows.rate_hz),
+        truth_has_own_clock_(rows.noise_name.empty()),
+        options_(options),
+        steps_(steps) {
     judged_.axis = row.axis;
     judged_.noise_scale = row.noise_scale;
     judged_.noise_known_by = row.noise.by;
@@ -163,8 +168,12 @@ class RowJudge {
     add_histogram(one.name, plain);
     if (plain.misfit) note_fit(plain);
     if (!steps_.next()) return;
-    const core::GuardCase on{row_.noisy_dps, row_.truth_dps, options_.range, rate_hz_,
-                             options_.settings.denoise.max_signal_hz};
+    const core::GuardCase on{row_.noisy_dps,
+                             row_.truth_dps,
+                             options_.range,
+                             rate_hz_,
+                             options_.settings.denoise.max_signal_hz,
+                             truth_has_own_clock_};
     judged_.guards.push_back({one.name, core::guards(one, plain, on)});
   }
 
@@ -222,6 +231,7 @@ class RowJudge {
 
   const EvaluationRow& row_;
   double rate_hz_;
+  bool truth_has_own_clock_;  ///< nothing was added to it: what is judged was measured beside it
   const EvaluationOptions& options_;
   Steps& steps_;
   JudgedRow judged_;
@@ -241,7 +251,7 @@ std::vector<JudgedRow> evaluate(const EvaluationRows& rows, const EvaluationOpti
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t row = next++; row < judged.size() && !steps.stopped(); row = next++)
-      judged[row] = RowJudge(rows.rows[row], rows.rate_hz, options, steps).judge();
+      judged[row] = RowJudge(rows.rows[row], rows, options, steps).judge();
   };
   const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, judged.size());
   std::vector<std::future<void>> at_work;

@@ -128,10 +128,19 @@ void seam_guards(const Contender& plain, const GuardCase& on, const GuardLimits&
                  std::nullopt, step_limit, ""});
 }
 
-Guard delay_guard(const Contender& plain, const GuardCase& on, double limit) {
+std::optional<Measured> shift_against_truth(std::span<const double> rates, const GuardCase& on) {
   constexpr std::size_t kFarthest = 64;
-  const auto peak =
-      correlation_peak(on.truth_dps, plain.estimate, on.range, kFarthest, kBatchSeconds * second_of(on));
+  return correlation_peak(on.truth_dps, rates, on.range, kFarthest, kBatchSeconds * second_of(on));
+}
+
+Guard delay_guard(const Contender& plain, const GuardCase& on, double limit) {
+  auto peak = shift_against_truth(plain.estimate, on);
+  if (on.truth_has_own_clock && peak) {
+    const auto of_record = shift_against_truth(on.noisy_dps, on);
+    peak = of_record ? std::optional(Measured{peak->value - of_record->value,
+                                              std::hypot(peak->standard_error, of_record->standard_error)})
+                     : std::nullopt;
+  }
   if (!peak) return not_applicable(GuardKind::kDelay, limit, "its correlation with the truth has no peak");
   Guard guard = uncertain_guard(GuardKind::kDelay, *peak, 0.0, limit,
                                 "too little motion that is fast enough, and in the answer, to tell");

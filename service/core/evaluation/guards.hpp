@@ -21,7 +21,7 @@ enum class GuardKind : std::uint8_t {
   kSeamRoughness,  ///< rms second difference at seams over that elsewhere; at most 1.2, or what the truth's or other places let expect
   kSeamOutliers,  ///< share of second differences at seams beyond the elsewhere 95 % quantile; at most 0.05 + 3 standard errors, or likewise
   kSeamWorstStep,  ///< worst sample-to-sample step at a seam in standard deviations of those elsewhere; at most 3, or likewise
-  kDelay,  ///< shift of greatest correlation with the truth, samples; 0.5 at most, where that is known to 0.25
+  kDelay,  ///< shift of greatest correlation with the truth, samples (GuardCase::truth_has_own_clock); 0.5 at most, where that is known to 0.25
   kVibrationGain,  ///< gain of an added 27 Hz tone (fs/4 at most) of 1 deg/s; off 1 by 0.1 at most, unless it is beyond the signal band
 };
 
@@ -48,6 +48,8 @@ struct GuardCase {
   SampleRange range;
   double rate_hz = 100.0;
   double max_signal_hz = 0.0;  ///< end of the signal band; 0: there is none
+  /// The truth is another sensor's, whose clock may be off by a part of a sample: the guard delay is what is added to that of the record itself.
+  bool truth_has_own_clock = false;
 };
 
 struct GuardLimits {

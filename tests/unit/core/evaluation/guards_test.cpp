@@ -239,6 +239,28 @@ TEST(Guards, SayWhyTheyDoNotApply) {
   }
 }
 
+// The truth comes two samples late: nobody's delay, where it has a clock of its own.
+TEST(Guards, DelayIsBesideTheRecordsOwnWhereTheTruthHasAClock) {
+  Drive drive;
+  std::rotate(drive.truth.begin(), drive.truth.end() - 2, drive.truth.end());
+  const Method prompt = method_with(none);
+  const Method late = method_with([](std::vector<double>& estimate) {
+    std::rotate(estimate.begin(), estimate.end() - 1, estimate.end());
+  });
+  GuardCase on = drive.guard_case();
+  const auto delay = [&](const Method& method) {
+    const auto all = guards(method, method.run(drive.noisy), on);
+    return *std::ranges::find(all, GuardKind::kDelay, &Guard::kind);
+  };
+  EXPECT_NEAR(delay(prompt).value.value(), -2.0, 0.2);
+  EXPECT_EQ(delay(prompt).verdict, Verdict::kFail);
+  on.truth_has_own_clock = true;
+  EXPECT_NEAR(delay(prompt).value.value(), 0.0, 0.2);
+  EXPECT_EQ(delay(prompt).verdict, Verdict::kPass);
+  EXPECT_NEAR(delay(late).value.value(), 1.0, 0.2);
+  EXPECT_EQ(delay(late).verdict, Verdict::kFail);
+}
+
 // One batch tells nothing of how uncertain a gain is.
 TEST(Guards, DoNotJudgeAGainWhoseErrorIsNotKnown) {
   const Drive drive;
