@@ -10,15 +10,6 @@
 #include "core/signal/moments.hpp"
 
 namespace gyrod::core {
-namespace {
-
-/// Whether energies and their scatter are tabulated for this EMD.
-bool noise_line_holds(const EmdOptions& emd) noexcept {
-  constexpr EmdOptions kTabulated;
-  return emd.sifts == kTabulated.sifts && emd.boundary == kTabulated.boundary;
-}
-
-}  // namespace
 
 Decomposition::Decomposition(std::size_t max_samples, const EmdOptions& emd,
                              const ScreeningOptions& screening)

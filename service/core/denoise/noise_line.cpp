@@ -21,6 +21,11 @@ constexpr std::array<double, 9> kPeriod = {2.867,  5.955,   12.046,  24.130, 48.
 
 }  // namespace
 
+bool noise_line_holds(const EmdOptions& emd) noexcept {
+  constexpr EmdOptions kTabulated;
+  return emd.sifts == kTabulated.sifts && emd.boundary == kTabulated.boundary;
+}
+
 double noise_line_energy(std::size_t imf) noexcept {
   assert(imf >= 1);
   if (imf <= kEnergy.size()) return kEnergy[imf - 1];

@@ -3,7 +3,12 @@
 
 #include <cstddef>
 
+#include "core/emd/emd.hpp"
+
 namespace gyrod::core {
+
+/// Whether the tables here, and those of significance.hpp, are of this EMD.
+[[nodiscard]] bool noise_line_holds(const EmdOptions& emd) noexcept;
 
 /// Energy of IMF i of white noise, in parts of the noise's variance: E_1 = 0.63, roughly halving from mode to
 /// mode. A table for IMF 1..9, halved per mode beyond; measured for 10 sifts and the default boundary rule

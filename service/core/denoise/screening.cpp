@@ -17,12 +17,7 @@ ImfFigures imf_figures(std::span<const double> imf, std::size_t index, double no
       figures.acf_variance * static_cast<double>(imf.size()) / figures.mean_period_samples;
   if (noise_variance <= 0.0) return figures;
   figures.excess = figures.energy / (noise_variance * noise_line_energy(index));
-  if (significance != nullptr) {
-    const NoiseBand band = significance->band(index, imf.size());
-    figures.noise_excess_low = band.lower;
-    figures.noise_excess_high = band.upper;
-    figures.noise_probability = SignificanceTest::p_value(figures.excess, index, imf.size());
-  }
+  if (significance != nullptr) significance->judge(figures, index, imf.size());
   return figures;
 }
 

@@ -68,4 +68,11 @@ double SignificanceTest::p_value(double excess, std::size_t imf, std::size_t sam
   return two_sided_tail(std::abs(std::cbrt(excess) - (1.0 - v)) / std::sqrt(v));
 }
 
+void SignificanceTest::judge(ImfFigures& figures, std::size_t imf, std::size_t samples) const noexcept {
+  const NoiseBand of_noise = band(imf, samples);
+  figures.noise_excess_low = of_noise.lower;
+  figures.noise_excess_high = of_noise.upper;
+  figures.noise_probability = p_value(figures.excess, imf, samples);
+}
+
 }  // namespace gyrod::core

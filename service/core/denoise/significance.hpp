@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "core/denoise/window_report.hpp"
+
 namespace gyrod::core {
 
 /// Degrees of freedom of the energy of IMF i of N samples of white noise:
@@ -30,6 +32,9 @@ class SignificanceTest {
 
   /// Excess that white noise has, but for the false-alarm rate. The lower bound is 0 where nu is small.
   [[nodiscard]] NoiseBand band(std::size_t imf, std::size_t samples) const noexcept;
+
+  /// Puts band and probability of the figures' excess beside it.
+  void judge(ImfFigures& figures, std::size_t imf, std::size_t samples) const noexcept;
 
   /// Probability that white noise gives an excess at least as far from its mean as this one. 0 where it is not a number: energies of
   /// values near 1e300 overflow.

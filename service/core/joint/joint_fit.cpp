@@ -27,6 +27,8 @@ JointFit::JointFit(std::size_t max_samples, const JointOptions& options)
       pruned_tapers_(max_samples, options.tapers, options.pruned_recency),
       whittle_(tapers_.transform_samples(), options.bandwidth_cycles),
       knocks_(max_samples),
+      significance_(ScreeningOptions{}.false_alarm_rate),
+      line_holds_(noise_line_holds(options.emd)),
       centred_(max_samples),
       imf_(max_samples),
       slow_(max_samples),
@@ -175,7 +177,7 @@ void JointFit::decompose(WindowReport& report) noexcept {
   start_mode(slow, slow_figures);
 }
 
-/// Energy, period, excess and class of an IMF: noise is left out, mixed becomes a mode, signal joins the slow mode. The noise's lines are not in
+/// Energy, period, excess, its significance, and class of an IMF: noise is left out, mixed becomes a mode, signal joins the slow mode. The noise's lines are not in
 /// the window any more.
 void JointFit::describe(std::span<const double> imf, WindowReport& report) const noexcept {
   const std::size_t index = ++report.imf_count;
@@ -185,6 +187,7 @@ void JointFit::describe(std::span<const double> imf, WindowReport& report) const
   figures.mean_period_samples = mean_period(imf);
   const double floor = line_count_ > 0 ? std::sqrt(unit_ * noise_variance(noise_)) : report.noise_floor;
   figures.excess = figures.energy / (floor * floor * noise_line_energy(index));
+  if (line_holds_) significance_.judge(figures, index, imf.size());
   // A tone beyond a low signal band is to be told from what is slower: only a mode of its own predicts it.
   if (figures.mean_period_samples > std::max(options_.slow_period_samples, 1.0 / designer_.band_cycles()))
     return;

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/denoise/screening.hpp"
+#include "core/denoise/significance.hpp"
 #include "core/denoise/window_report.hpp"
 #include "core/emd/emd.hpp"
 #include "core/joint/joint_model.hpp"
@@ -105,6 +107,8 @@ class JointFit {
   WhittleFit whittle_;
   MemberDesigner designer_;
   KnockBridge knocks_;
+  SignificanceTest significance_;  ///< for reports: nothing here decides by it
+  bool line_holds_;                ///< its tables are of this EMD
   std::vector<double> centred_;
   std::vector<double> imf_;
   std::vector<double> slow_;

@@ -1,4 +1,4 @@
-// Narrow tones in a window: which of them are reported, and what the members make of them.
+// What a report says of a window: narrow tones, which of them are told and what the members make of them; whether modes are noise.
 #include <cmath>
 #include <cstddef>
 
@@ -67,6 +67,30 @@ TEST(JointFitTone, IsDoubtedByNoMember) {
           report);
   const double full = model.member(core::MemberKind::kFull).innovation_variance;
   EXPECT_GT(model.member(core::MemberKind::kStill).innovation_variance, 0.72 * full);
+}
+
+// Whatever the rule: one IMF of white noise in a hundred lies outside the band by chance, and a swing far beyond it.
+TEST(JointFitReport, SaysWhetherEnergiesAreThoseOfNoise) {
+  core::JointOptions options;
+  for (const int sifts : {10, 9}) {
+    options.emd.sifts = sifts;
+    core::JointFit fit(1024, options);
+    core::JointModel model;
+    core::WindowReport report;
+    fit.fit(testing::sum(testing::times(testing::tone(1024, 0.01), 2.0), testing::white_noise(1024, 3), 0.3),
+            core::white_noise(0.09), model, report);
+    const core::ImfFigures& first = report.imf[0];
+    if (sifts == 9) {
+      EXPECT_EQ(first.noise_excess_high, 0.0) << "the tables are those of ten";
+      continue;
+    }
+    EXPECT_GT(first.excess, first.noise_excess_low);
+    EXPECT_LT(first.excess, first.noise_excess_high);
+    EXPECT_GT(first.noise_probability, 0.01);
+    const auto swing = std::ranges::max_element(report.imf, {}, &core::ImfFigures::energy);
+    EXPECT_GT(swing->excess, swing->noise_excess_high);
+    EXPECT_LT(swing->noise_probability, 1e-6);
+  }
 }
 
 }  // namespace
