@@ -130,7 +130,7 @@ void add_inputs(CLI::App& command, AllanFlags& flags) {
       ->required();
   command
       .add_option("--rate", flags.record.sample_rate_hz,
-                  "Sample rate in Hz [by the time column; needed where there is none]")
+                  "Sample rate in Hz; it holds, whatever the stamps say [from the time column]")
       ->type_name("HZ")
       ->check(in_range(1e-3, 1e6));
   command.add_option("--axis", flags.axes, "Axes to analyse, e.g. z or x,y [x,y,z]")

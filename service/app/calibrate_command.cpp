@@ -166,7 +166,7 @@ void add_recording(CLI::App& command, CalibrateFlags& flags) {
       ->type_name("IN.csv[.gz]");
   command
       .add_option("--rate", flags.record.sample_rate_hz,
-                  "Sample rate in Hz [by the time column; needed where there is none]")
+                  "Sample rate in Hz; it holds, whatever the stamps say [from the time column]")
       ->type_name("HZ")
       ->check(in_range(1e-3, 1e6));
   command.add_option("--from", flags.from_s, "Look only from this time on, s into the recording")

@@ -105,6 +105,26 @@ void tell_of_misfits(const Evaluation& evaluation, std::vector<std::string>& cau
   }
 }
 
+/// Raw in parts of the truth: beyond these no two sensors differ that measure the same.
+constexpr double kLeastScale = 0.7;
+constexpr double kMostScale = 1.4;
+
+/// Columns in another unit than their names say, or of another axis, make every method look alike.
+void tell_of_other_units(const Evaluation& evaluation, std::vector<std::string>& cautions) {
+  const auto& [rows, options, judged] = evaluation;
+  for (const JudgedRow& row : judged) {
+    const auto raw = std::ranges::find(row.estimators, std::string("raw"), &JudgedEstimator::name);
+    if (raw == row.estimators.end() || raw->lags.empty() || !raw->lags.front().figures.scale_factor) continue;
+    const double scale = raw->lags.front().figures.scale_factor->value;
+    if (scale >= kLeastScale && scale <= kMostScale) continue;
+    cautions.push_back(
+        rows_of({&row}, judged.size()) +
+        fmt::format("raw is {:.3g} times the truth: are the columns in the units of their names, and "
+                    "do the axes belong together (--truth-axes)?",
+                    scale));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> cautions_of(const Evaluation& evaluation) {
@@ -112,6 +132,7 @@ std::vector<std::string> cautions_of(const Evaluation& evaluation) {
   if (std::ranges::any_of(evaluation.options.methods, takes_noise_model))
     tell_of_noise_models(evaluation, all);
   tell_of_misfits(evaluation, all);
+  if (evaluation.rows.noise_name.empty()) tell_of_other_units(evaluation, all);
   return all;
 }
 

@@ -32,7 +32,7 @@ void add_angle(Json& json, const std::string& window, const std::optional<core::
   json[key + "_windows"] = angle ? angle->windows : 0;
   json[key + "_rms_deg"] = angle ? Json(angle->rms) : Json(nullptr);
   json[key + "_mean_deg"] = angle ? Json(angle->mean) : Json(nullptr);
-  json[key + "_std_deg"] = angle ? Json(angle->std) : Json(nullptr);
+  json[key + "_std_deg"] = angle && angle->windows > 1 ? Json(angle->std) : Json(nullptr);
   json[key + "_max_deg"] = angle ? Json(angle->max_abs) : Json(nullptr);
 }
 

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -79,6 +80,16 @@ core::GyroErrorOptions ErrorFlags::options() const {
           .bias_radps = bias_dps * kRadPerDeg,
           .step_radps = step_dps * kRadPerDeg,
           .range_radps = range_dps * kRadPerDeg};
+}
+
+/// A tone that nobody would find in the samples is not what was asked for.
+void check(const SimulateFlags& flags) {
+  if (flags.engine_tone_dps == 0.0) return;
+  if (!flags.drive) throw CLI::ValidationError("--engine-tone is for --motion drive");
+  if (flags.engine_tone_hz < 0.5 * flags.rate_hz) return;
+  throw CLI::ValidationError("--engine-tone-hz is " + fmt::format("{:g}", flags.engine_tone_hz) +
+                             ": expected less than half of --rate, " +
+                             fmt::format("{:g}", 0.5 * flags.rate_hz));
 }
 
 core::SimulatedGyroOptions gyro_options(const SimulateFlags& flags) {
@@ -228,6 +239,7 @@ void add_simulate(CLI::App& parser, Action& chosen) {
       "  gyrod simulate --rate 1000 --batch 32 --speed max --samples 1000000\n"
       "  gyrod simulate --sensors 1000 --batch 10 --sensor imu     # imu_1 to imu_1000");
   command->callback([&chosen, flags] {
+    check(*flags);
     chosen = [flags](Interrupt& interrupt) {
       return flags->output.empty() ? simulate_to_bus(*flags, interrupt) : simulate_to_file(*flags, interrupt);
     };

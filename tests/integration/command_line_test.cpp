@@ -72,6 +72,16 @@ TEST_F(CommandLine, AFlagOutOfItsRangeIsNamedWithItsValueAndTheRange) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("--batch"), HasSubstr("'1025'"), HasSubstr("1 to 1024")));
 }
 
+TEST_F(CommandLine, AnEngineThatWouldNotBeHeardIsRefused) {
+  Result result = run({"simulate", "-o", path("out.csv"), "--motion", "still", "--engine-tone", "2"});
+  EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--engine-tone"), HasSubstr("--motion drive")));
+  result = run({"simulate", "-o", path("out.csv"), "--motion", "drive", "--engine-tone", "2",
+                "--engine-tone-hz", "50"});
+  EXPECT_EQ(result.exit_code, ExitCode::kWrongUsage);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--engine-tone-hz"), HasSubstr("50")));
+}
+
 TEST_F(CommandLine, HelpAndVersionAreExitCode0) {
   EXPECT_THAT(run({"--version"}).out, HasSubstr("gyrod 0."));
   for (const std::string command : {"run", "validate", "denoise", "decompose", "allan", "navigate", "report",

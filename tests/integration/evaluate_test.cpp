@@ -39,6 +39,15 @@ TEST_F(Evaluate, FindsTheErrorThatIsThere) {
   EXPECT_NEAR(all["rows"][0]["noise_std_dps"], 0.2, 0.007);
 }
 
+// Every method is as far off as raw then, and every guard passes.
+TEST_F(Evaluate, SaysThatRawAndTruthAreNotInTheSameUnit) {
+  write_file("in.csv", Recording{.truth = "truth_z_radps"}.text());
+  const std::string cautions = figures("in.csv", {"--no-turns", "--methods", "improved"})["cautions"].dump();
+  EXPECT_THAT(cautions, AllOf(HasSubstr("raw is 0.017"), HasSubstr("times the truth")));  // pi / 180, but for noise
+  write_file("in.csv", Recording{}.text());
+  EXPECT_EQ(figures("in.csv", {"--no-turns", "--methods", "improved"})["cautions"], json::array());
+}
+
 TEST_F(Evaluate, TunedFiltersBeatRawAndGainByLag) {
   write_file("in.csv", Recording{}.text());
   const json all = figures("in.csv", {"--no-turns", "--methods", "improved"});
