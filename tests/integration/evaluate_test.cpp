@@ -43,7 +43,8 @@ TEST_F(Evaluate, FindsTheErrorThatIsThere) {
 TEST_F(Evaluate, SaysThatRawAndTruthAreNotInTheSameUnit) {
   write_file("in.csv", Recording{.truth = "truth_z_radps"}.text());
   const std::string cautions = figures("in.csv", {"--no-turns", "--methods", "improved"})["cautions"].dump();
-  EXPECT_THAT(cautions, AllOf(HasSubstr("raw is 0.017"), HasSubstr("times the truth")));  // pi / 180, but for noise
+  EXPECT_THAT(cautions,
+              AllOf(HasSubstr("raw is 0.017"), HasSubstr("times the truth")));  // pi / 180, but for noise
   write_file("in.csv", Recording{}.text());
   EXPECT_EQ(figures("in.csv", {"--no-turns", "--methods", "improved"})["cautions"], json::array());
 }

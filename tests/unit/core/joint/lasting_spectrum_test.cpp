@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
@@ -11,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/joint/joint_fit.hpp"
+#include "core/joint/kalman_bank.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/signals.hpp"
 #include "unit/core/joint/joint_support.hpp"
@@ -152,6 +155,47 @@ TEST(LastingMember, FindsWhatOneWindowDoesNotShow) {
   core::JointOptions without;
   without.lasting_log_prior = -100.0;
   EXPECT_LT(error({}), 0.9 * error(without));
+}
+
+/// Of x[t-16], from 100 samples to 1024 after a gap, by windows of 1024 samples at the most; before it, they were of 4096.
+/// @param with what models know when the gap ends
+double error_after_a_gap(const Signal& truth, const Signal& z, core::JointModel with) {
+  constexpr std::size_t kWindow = 1024;
+  const std::size_t begin = z.size() - kWindow;
+  core::JointFit fit(kWindow);
+  core::KalmanBank bank({}, 16);
+  bank.expect_noise(1.0);
+  core::JointModel made;
+  core::WindowReport report;
+  double squares = 0.0;
+  for (std::size_t t = 0; t < kWindow; ++t) {
+    if (t >= 96 && t % 32 == 0) bank.use(made);
+    if (t >= 64 && t % 32 == 0) {
+      fit.fit(std::span(z).subspan(begin, t), core::white_noise(1.0), with, report);
+      made = with;
+    }
+    const double error = bank.step(z[begin + t]).denoised.rate - truth[begin + t - 16];
+    if (t >= 100) squares += error * error;
+  }
+  return std::sqrt(squares / static_cast<double>(kWindow - 100));
+}
+
+// 0.26 for 0.34: what has lasted for minutes does not have to be found anew.
+TEST(LastingMember, OutlastsAGapThatMakesWindowsShortAgain) {
+  constexpr std::size_t kWindow = 4096;
+  constexpr std::size_t kSize = 24'000;
+  Signal truth = testing::times(testing::tone(kSize, 0.005), 2.0);
+  for (const double cycles : {0.18, 0.225, 0.31})
+    truth = testing::sum(truth, testing::tone(kSize, cycles), 0.3);
+  const Signal z = testing::sum(truth, testing::white_noise(kSize, 4));
+  core::JointFit fit(kWindow);
+  core::JointModel model;
+  core::WindowReport report;
+  for (std::size_t end = kWindow; end < kSize - 2048; end += 512)
+    fit.fit(std::span(z).subspan(end - kWindow, kWindow), core::white_noise(1.0), model, report);
+  core::JointModel forgetful = model;
+  forgetful.lasting.forget();
+  EXPECT_LT(error_after_a_gap(truth, z, model), 0.85 * error_after_a_gap(truth, z, forgetful));
 }
 
 // A fit that goes on may make a tone of the mode that was called slow.
