@@ -39,11 +39,15 @@ Method method_with(const Change& defect, std::size_t lag = 16) {
   return {"test", lag, run};
 }
 
+Guard guard_on(const GuardCase& on, GuardKind kind, const Change& defect, std::size_t lag = 16) {
+  const Method method = method_with(defect, lag);
+  const auto all = guards(method, method.run(on.noisy_dps), on);
+  return *std::ranges::find(all, kind, &Guard::kind);
+}
+
 Guard guard_of(GuardKind kind, const Change& defect, std::size_t lag = 16) {
   const Drive drive;
-  const Method method = method_with(defect, lag);
-  const auto all = guards(method, method.run(drive.noisy), drive.guard_case());
-  return *std::ranges::find(all, kind, &Guard::kind);
+  return guard_on(drive.guard_case(), kind, defect, lag);
 }
 
 void none(std::vector<double>&) {}
@@ -228,14 +232,10 @@ TEST(Guards, SayWhyTheyDoNotApply) {
   GuardCase on = drive.guard_case();
   on.range = {500, 900};  // 4 s
   for (const Guard& guard : guards(method, plain, on)) {
-    if (guard.verdict == Verdict::kNotApplicable) {
-      EXPECT_FALSE(guard.reason.empty());
-    }
+    EXPECT_EQ(guard.reason.empty(), guard.verdict != Verdict::kNotApplicable);
     const bool long_one = guard.kind == GuardKind::kSlowTurnGain || guard.kind == GuardKind::kScaleFactor ||
                           guard.kind == GuardKind::kSeamRoughness;
-    if (long_one) {
-      EXPECT_EQ(guard.verdict, Verdict::kNotApplicable) << name_of(guard.kind);
-    }
+    EXPECT_TRUE(!long_one || guard.verdict == Verdict::kNotApplicable) << name_of(guard.kind);
   }
 }
 
@@ -243,35 +243,29 @@ TEST(Guards, SayWhyTheyDoNotApply) {
 TEST(Guards, DelayIsBesideTheRecordsOwnWhereTheTruthHasAClock) {
   Drive drive;
   std::rotate(drive.truth.begin(), drive.truth.end() - 2, drive.truth.end());
-  const Method prompt = method_with(none);
-  const Method late = method_with([](std::vector<double>& estimate) {
+  GuardCase on = drive.guard_case();
+  EXPECT_NEAR(guard_on(on, GuardKind::kDelay, none).value.value(), -2.0, 0.2);
+  on.truth_has_own_clock = true;
+  const Guard prompt = guard_on(on, GuardKind::kDelay, none);
+  EXPECT_NEAR(prompt.value.value(), 0.0, 0.2);
+  EXPECT_EQ(prompt.verdict, Verdict::kPass);
+  const Guard late = guard_on(on, GuardKind::kDelay, [](std::vector<double>& estimate) {
     std::rotate(estimate.begin(), estimate.end() - 1, estimate.end());
   });
-  GuardCase on = drive.guard_case();
-  const auto delay = [&](const Method& method) {
-    const auto all = guards(method, method.run(drive.noisy), on);
-    return *std::ranges::find(all, GuardKind::kDelay, &Guard::kind);
-  };
-  EXPECT_NEAR(delay(prompt).value.value(), -2.0, 0.2);
-  EXPECT_EQ(delay(prompt).verdict, Verdict::kFail);
-  on.truth_has_own_clock = true;
-  EXPECT_NEAR(delay(prompt).value.value(), 0.0, 0.2);
-  EXPECT_EQ(delay(prompt).verdict, Verdict::kPass);
-  EXPECT_NEAR(delay(late).value.value(), 1.0, 0.2);
-  EXPECT_EQ(delay(late).verdict, Verdict::kFail);
+  EXPECT_NEAR(late.value.value(), 1.0, 0.2);
+  EXPECT_EQ(late.verdict, Verdict::kFail);
 }
 
 // One batch tells nothing of how uncertain a gain is.
 TEST(Guards, DoNotJudgeAGainWhoseErrorIsNotKnown) {
   const Drive drive;
-  const Method method = method_with([](std::vector<double>& estimate) {
-    for (double& value : estimate) value *= 0.9;
-  });
   GuardCase on = drive.guard_case();
   on.range = {500, 1400};  // 9 s
-  for (const Guard& guard : guards(method, method.run(drive.noisy), on)) {
-    if (guard.kind != GuardKind::kSwingGain && guard.kind != GuardKind::kVibrationGain) continue;
-    EXPECT_EQ(guard.verdict, Verdict::kNotApplicable) << name_of(guard.kind);
+  for (const GuardKind kind : {GuardKind::kSwingGain, GuardKind::kVibrationGain}) {
+    const Guard guard = guard_on(on, kind, [](std::vector<double>& estimate) {
+      for (double& value : estimate) value *= 0.9;
+    });
+    EXPECT_EQ(guard.verdict, Verdict::kNotApplicable) << name_of(kind);
     EXPECT_NE(guard.reason.find("20 s"), std::string::npos) << guard.reason;
     EXPECT_NEAR(guard.value.value(), 0.9, 0.1) << "said, but not judged";
     EXPECT_FALSE(guard.standard_error);
@@ -281,12 +275,9 @@ TEST(Guards, DoNotJudgeAGainWhoseErrorIsNotKnown) {
 // Three minutes at 1.8 Hz: 0.1 Hz has its periods, 1 Hz is nothing that samples could hold.
 TEST(Guards, SayThatASwingIsBeyondHalfTheSampleRate) {
   const Drive drive;
-  const Method method = method_with(none);
-  const Contender plain = method.run(drive.noisy);
-  const auto all = guards(method, plain, {drive.noisy, drive.truth, {500, 17'500}, 1.8});
-  const auto reason = [&](GuardKind kind) { return std::ranges::find(all, kind, &Guard::kind)->reason; };
-  EXPECT_EQ(reason(GuardKind::kSlowTurnGain), "");
-  EXPECT_NE(reason(GuardKind::kSwingGain).find("Nyquist"), std::string::npos);
+  const GuardCase on{drive.noisy, drive.truth, {500, 17'500}, 1.8};
+  EXPECT_EQ(guard_on(on, GuardKind::kSlowTurnGain, none).reason, "");
+  EXPECT_NE(guard_on(on, GuardKind::kSwingGain, none).reason.find("Nyquist"), std::string::npos);
 }
 
 // First-order low-pass, exponential average with share a: group delay at low frequency (1 - a)/a samples.
