@@ -1,9 +1,9 @@
 #include "app/denoise_summary.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
 
 #include "app/analysis_json.hpp"
 #include "app/version.hpp"

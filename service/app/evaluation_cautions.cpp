@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <fmt/format.h>
 #include <string>
 #include <vector>
+
+#include <spdlog/fmt/fmt.h>
 
 #include "app/evaluated_methods.hpp"
 #include "app/evaluation_report.hpp"
