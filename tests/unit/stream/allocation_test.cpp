@@ -21,14 +21,18 @@ class NullSink final : public Sink {
   void on_end(std::string_view) noexcept override {}
 };
 
-std::uint64_t allocations_after_warm_up(const MethodFactory& method, std::size_t workers) {
+EngineOptions short_windows(std::size_t workers) {
   EngineOptions options;
   options.window_samples = 256;
-  options.workers = workers;
   options.max_hop_samples = 128;
+  options.workers = workers;
   options.max_delay_s = 3600.0;
+  return options;
+}
+
+std::uint64_t allocations_after_warm_up(const MethodFactory& method, std::size_t workers) {
   NullSink sink;
-  Engine engine(options, method, sink);
+  Engine engine(short_windows(workers), method, sink);
   const auto samples = testing::noisy_samples(4000);
   const std::span<const Sample> all{samples};
   engine.push("imu", all.first(1000));
@@ -48,17 +52,12 @@ TEST(SamplePath, AllocatesNothingAfterWarmUp) {
 
 TEST(SamplePath, AllocatesForEachDoublingOfAFastSensorsWindowsAndNeverAgain) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
-  EngineOptions options;
-  options.window_samples = 256;
-  options.max_hop_samples = 128;
-  options.workers = 2;
-  options.max_delay_s = 3600.0;
   const auto samples = testing::at_rate(testing::noisy_samples(8000), 1000);
   const std::span<const Sample> all{samples};
   for (const MethodFactory& method :
        {MethodFactory{testing::last_sample_method()}, MethodFactory{joint_method({})}}) {
     NullSink sink;
-    Engine engine(options, method, sink);
+    Engine engine(short_windows(2), method, sink);
     const auto allocations_in = [&](std::size_t from, std::size_t to) {
       const std::uint64_t before = testing::allocations();
       for (std::size_t n = from; n < to; n += 8) engine.push("imu", all.subspan(n, 8));
@@ -96,18 +95,13 @@ class WatchedMethod final : public ModelMethod {
 // A fit cannot say that there is no memory: what it needs of a longer window is there before.
 TEST(SamplePath, WorkersAllocateNothingWhereWindowsDouble) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "sanitizers bring their own heap";
-  EngineOptions options;
-  options.window_samples = 256;
-  options.max_hop_samples = 128;
-  options.workers = 0;
-  options.max_delay_s = 3600.0;
   std::atomic<std::uint64_t> allocations{0};
   ModelMethodFactory watched = joint_method({});
   watched.method = [&allocations, made = watched.method](std::size_t window, std::size_t hop) {
     return std::make_unique<WatchedMethod>(made(window, hop), allocations);
   };
   NullSink sink;
-  Engine engine(options, watched, sink);
+  Engine engine(short_windows(0), watched, sink);
   const auto samples = testing::at_rate(testing::noisy_samples(8000), 1000);
   engine.push("imu", samples);
   engine.wait_idle();
