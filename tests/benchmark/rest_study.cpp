@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/evaluation/butterworth.hpp"
 #include "core/noise/standstill_learner.hpp"
 #include "core/simulation/simulated_gyro.hpp"
 #include "files/record.hpp"
@@ -95,6 +96,25 @@ void study_rest(const files::Record& record, const Truth& truth) {
     tally(record, truth, true);
 }
 
+/// The same sensors with a low-pass of their own, of second order, accelerometer and all.
+void study_low_passed(const files::Record& record, const Truth& truth) {
+  for (const double cutoff_hz : {42.0, 20.0, 10.0, 5.0, 2.5}) {
+    files::Record slow = record;
+    const auto sections = core::butterworth(2, cutoff_hz / record.sample_rate_hz);
+    for (auto& axis : slow.gyro_radps) core::filter_forward(sections, axis);
+    for (auto& [name, column] : slow.others) {
+      if (!name.starts_with("accel_")) continue;
+      for (std::size_t n = 1; n < column.size(); ++n)
+        if (!std::isfinite(column[n])) column[n] = column[n - 1];
+      core::filter_forward(sections, column);
+    }
+    char cutoff[32];
+    std::snprintf(cutoff, sizeof cutoff, " behind %.1f Hz", cutoff_hz);
+    slow.name += cutoff;
+    study_rest(slow, truth);
+  }
+}
+
 /// Parked below 0.1 m/s by RTK; within a second of any faster fix it moves.
 Truth drive_truth(const std::filesystem::path& fixes) {
   std::ifstream file(fixes);
@@ -170,12 +190,16 @@ void noisy_drive(const files::Record& drive, const files::Record& still, double 
 void rest(const std::filesystem::path& data) {
   const Truth always = [](double) { return std::optional(true); };
   const Truth never = [](double) { return std::optional(false); };
+  const auto study_both = [](const files::Record& record, const Truth& truth) {
+    study_rest(record, truth);
+    study_low_passed(record, truth);
+  };
   for (const char* imu : {"imu1", "imu2", "imu4"})
-    study_rest(load(data / ("adis16405_" + std::string(imu) + "_static_100hz.csv.gz"), 100.0), always);
-  study_rest(load(data / "mpu6050_static_10min_100hz.csv.gz", 100.0), always);
-  study_rest(load(data / "drive0708_lsm6_100hz.csv.gz"), drive_truth(data / "drive0708_gnss_rtk_4hz.csv"));
+    study_both(load(data / ("adis16405_" + std::string(imu) + "_static_100hz.csv.gz"), 100.0), always);
+  study_both(load(data / "mpu6050_static_10min_100hz.csv.gz", 100.0), always);
+  study_both(load(data / "drive0708_lsm6_100hz.csv.gz"), drive_truth(data / "drive0708_gnss_rtk_4hz.csv"));
   for (const char* trial : {"06", "09"})
-    study_rest(load(data / ("wid_car_trial" + std::string(trial) + "_xsensdot_120hz.csv.gz")), never);
+    study_both(load(data / ("wid_car_trial" + std::string(trial) + "_xsensdot_120hz.csv.gz")), never);
   const auto still = load(data / "adis16405_imu1_static_100hz.csv.gz", 100.0);
   const auto trial06 = load(data / "wid_car_trial06_xsensdot_120hz.csv.gz");
   const auto trial09 = load(data / "wid_car_trial09_xsensdot_120hz.csv.gz");
@@ -187,13 +211,13 @@ void rest(const std::filesystem::path& data) {
        {"02_undisturbed_slow_rotation_B", "10_undisturbed_slow_translation_A", "24_disturbed_tapping_A"}) {
     const auto record = load(data / ("broad_" + std::string(broad) + "_286hz.csv.gz"));
     const auto& movement = record.others.at("movement");
-    study_rest(record, [&](double t) -> std::optional<bool> {
+    study_both(record, [&](double t) -> std::optional<bool> {
       const double n = std::round((t - record.first_stamp_s) * record.sample_rate_hz);
       return movement[std::min(static_cast<std::size_t>(std::max(n, 0.0)), movement.size() - 1)] == 0.0;
     });
   }
   for (const char* room : {"room1", "room3"})
-    study_rest(load(data / ("tumvi_" + std::string(room) + "_bmi160_200hz.csv.gz")), never);
+    study_both(load(data / ("tumvi_" + std::string(room) + "_bmi160_200hz.csv.gz")), never);
   simulated(0.003, 0.0);
   simulated(0.0, 0.0);
   simulated(0.003, 0.01);

@@ -12,6 +12,11 @@ namespace {
 
 constexpr double kBlockSeconds = 1.0;
 constexpr double kFewestInBlock = 100.0;
+/// Samples of a block that tell something new: with fewer it is made longer, until it has enough; with plenty of them a short one will do.
+constexpr double kFewTelling = 75.0;
+constexpr double kEnoughTelling = 100.0;
+constexpr double kPlentyTelling = 400.0;
+constexpr std::size_t kMostParts = 4;
 /// Logarithms of block variances differ by sqrt(2 / n); real, coloured noise keeps eight to twelve of them within 6.3 of these.
 constexpr double kEvenDeviations = 7.5;
 /// A real sensor's level is not constant beyond this.
@@ -44,7 +49,8 @@ double most_uneven(double samples) noexcept {
 
 }  // namespace
 
-RestDetector::RestDetector(double sample_rate_hz) : periodogram_(kNoiseSegment) {
+RestDetector::RestDetector(double sample_rate_hz)
+    : low_pass_(sample_rate_hz), force_low_pass_(sample_rate_hz), periodogram_(kNoiseSegment) {
   for (auto& samples : segment_) samples.resize(kNoiseSegment);
   retime(sample_rate_hz);
 }
@@ -52,10 +58,17 @@ RestDetector::RestDetector(double sample_rate_hz) : periodogram_(kNoiseSegment) 
 void RestDetector::retime(double sample_rate_hz) noexcept {
   assert(sample_rate_hz > 0.0);
   const double samples = std::max(kBlockSeconds * sample_rate_hz, kFewestInBlock);
-  block_samples_ = static_cast<std::size_t>(std::lround(samples));
-  most_bridged_ = static_cast<std::size_t>(kMostBridged * samples);
-  even_ratio_ = most_uneven(samples);
+  part_samples_ = static_cast<std::size_t>(std::lround(samples));
+  set_parts(1);
+  low_pass_.retime(sample_rate_hz);
+  force_low_pass_.retime(sample_rate_hz);
   interrupt();
+}
+
+void RestDetector::set_parts(std::size_t parts) noexcept {
+  parts_ = parts;
+  block_samples_ = parts * part_samples_;
+  most_bridged_ = static_cast<std::size_t>(kMostBridged * static_cast<double>(block_samples_));
 }
 
 bool RestDetector::step(const Triple& rate, const Triple* accelerometer) noexcept {
@@ -69,8 +82,11 @@ bool RestDetector::step(const Triple& rate, const Triple* accelerometer) noexcep
     if (accelerometer != nullptr) add(3 + axis, (*accelerometer)[axis]);
     segment_[axis][in_segment_] = rate[axis];
   }
+  low_pass_.step(rate, periodogram_);
+  if (accelerometer != nullptr) force_low_pass_.step(*accelerometer, periodogram_);
   if (++in_segment_ == kNoiseSegment) end_segment();
-  if (++in_block_ < block_samples_) return false;
+  if (++in_block_ % part_samples_ == 0) end_part();
+  if (in_block_ < block_samples_) return false;
   end_block();
   return true;
 }
@@ -92,7 +108,18 @@ void RestDetector::add(std::size_t input, double value) noexcept {
   if (in_block_ == 0) sums = {.first = value};
   const double offset = value - sums.first;
   sums.sum += offset;
+  sums.part += offset;
   sums.squares += offset * offset;
+}
+
+void RestDetector::end_part() noexcept {
+  for (std::size_t input = 0; input < inputs_; ++input) {
+    Sums& sums = sums_[input];
+    const double mean = sums.part / static_cast<double>(part_samples_);
+    sums.means += mean;
+    sums.squared_means += mean * mean;
+    sums.part = 0.0;
+  }
 }
 
 void RestDetector::end_segment() noexcept {
@@ -107,11 +134,16 @@ void RestDetector::end_segment() noexcept {
 
 void RestDetector::end_block() noexcept {
   const double count = static_cast<double>(block_samples_);
+  const double parts = static_cast<double>(parts_);
   newest_ = (newest_ + 1) % kBlocks;
   for (std::size_t input = 0; input < inputs_; ++input) {
     const Sums& sums = sums_[input];
     const double mean = sums.sum / count;
-    windows_[input][newest_] = {sums.first + mean, std::max(sums.squares / count - mean * mean, 0.0)};
+    const double mean_of_means = sums.means / parts;
+    windows_[input][newest_] = {
+        .mean = sums.first + mean,
+        .variance = std::max(sums.squares / count - mean * mean, 0.0),
+        .variance_of_means = std::max(sums.squared_means / parts - mean_of_means * mean_of_means, 0.0)};
   }
   force_counts_[newest_] = static_cast<double>(forces_);
   in_block_ = bridged_ = 0;
@@ -123,6 +155,21 @@ void RestDetector::end_block() noexcept {
   add_up(this_half_, fresh_);
   verdict_ = judge();
   if (++in_half_ == kHalfWindow) end_half();
+  settle_block();
+}
+
+/// Long enough for the noise that there is.
+void RestDetector::settle_block() noexcept {
+  const double telling = static_cast<double>(part_samples_) * low_pass_.independent();
+  const double now = telling * static_cast<double>(parts_);
+  if (now >= kFewTelling && (now <= kPlentyTelling || parts_ == 1)) return;
+  std::size_t parts = 1;
+  while (parts < kMostParts && telling * static_cast<double>(parts) < kEnoughTelling) parts *= 2;
+  if (parts == parts_) return;
+  set_parts(parts);
+  begin_run();
+  after_gap_ = true;
+  verdict_ = RestVerdict::kTooEarly;
 }
 
 /// With the newest block; the segment at work holds what was before.
@@ -141,6 +188,8 @@ void RestDetector::end_half() noexcept {
 
 void RestDetector::interrupt() noexcept {
   begin_run();
+  low_pass_.interrupt();
+  force_low_pass_.interrupt();
   in_block_ = bridged_ = 0;
   after_gap_ = true;
   verdict_ = RestVerdict::kTooEarly;
@@ -151,7 +200,7 @@ RestVerdict RestDetector::judge() noexcept {
   average();
   if (std::ranges::all_of(variance_, [](double v) { return !(v > 0.0); })) return RestVerdict::kFrozen;
   for (std::size_t input = 0; input < inputs_; ++input) {
-    const double most = input < 3 ? kSteady : kSteadyAccelerometer;
+    const double most = (input < 3 ? kSteady : kSteadyAccelerometer) * low_pass_of(input).slow();
     if (!is_motionless(input, kBlocks) && wandering(input) > most) return RestVerdict::kWandering;
   }
   listen();
@@ -181,9 +230,9 @@ bool RestDetector::newest_is_even() const noexcept {
       least = std::min(least, variance);
       most = std::max(most, variance);
     }
-    const double ratio =
-        input < 3 ? even_ratio_ : most_uneven(fewest_in(input, std::min(blocks_ + 1, kBlocks)));
-    if (most > ratio * least) return false;
+    const double telling = std::min(fewest_in(input, std::min(blocks_ + 1, kBlocks)),
+                                    static_cast<double>(block_samples_) * low_pass_of(input).independent());
+    if (most > most_uneven(telling) * least) return false;
   }
   return true;
 }
@@ -212,10 +261,11 @@ bool RestDetector::is_motionless(std::size_t input, std::size_t blocks) const no
   return highest - lowest < kMotionless_mps2 && loudest < kMotionless_mps2 * kMotionless_mps2;
 }
 
-/// Spread of the block means in parts of what white noise of the blocks' level explains; 0 where nothing changes.
+/// Spread of the parts' means over what white noise of the blocks' level explains; 0 where nothing changes.
 double RestDetector::wandering(std::size_t input) const noexcept {
   const Window& window = windows_[input];
   const double count = static_cast<double>(kBlocks);
+  const double parts = static_cast<double>(parts_);
   // From one of them, so that means which are all the same have no spread by rounding.
   const double origin = window.front().mean;
   double centre = 0.0;
@@ -227,10 +277,10 @@ double RestDetector::wandering(std::size_t input) const noexcept {
   double spread = 0.0;
   for (const Block& block : window) {
     const double off = block.mean - origin - centre;
-    spread += off * off / (count - 1.0);
+    spread += (off * off + block.variance_of_means) * parts / (count * parts - 1.0);
   }
   if (!(spread > 0.0)) return 0.0;
-  return spread * fewest_in(input, kBlocks) / level;
+  return spread * (fewest_in(input, kBlocks) / parts) / level;
 }
 
 /// Too few segments at the moment leave the answer that there was.

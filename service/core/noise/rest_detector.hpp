@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/noise/noise_fit.hpp"
+#include "core/noise/own_low_pass.hpp"
 #include "core/signal/periodogram.hpp"
 
 namespace gyrod::core {
@@ -26,16 +27,19 @@ enum class RestVerdict : std::uint8_t {
 
 /// Judges blocks of samples, eight at a time. A block is one second, or 100 samples where those take longer. At rest is who has, on each
 /// axis that is alive, n samples a block, block variances v_i and block means m_i:
-///   even:    max v_i / min v_i <= exp(7.5 sqrt(2 / min(n, 400)));
-///   steady:  var(m_i) n / mean(v_i) <= 8   (white noise: 1; chi-squared of 7 degrees, and twice that for colour);
+///   even:    max v_i / min v_i <= exp(7.5 sqrt(2 / min(r n, 400)));
+///   steady:  var(m_i) n / mean(v_i) <= 8 s   (white noise: 1; chi-squared of 7 degrees, and twice that for colour),
+///            m_i and n of parts of a block, one second each, where blocks are longer;
 ///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4.
-/// A block that is not even with those before begins a new run, and eight blocks of a run are judged. A sensor whose own low-pass lies
-/// below about a third of half the sample rate has too few independent samples for this, and is rarely found at rest.
+/// r and s are 1 but for a sensor that low-passes its noise: OwnLowPass::independent() and slow(). Blocks are twice and four times as long
+/// where r n is below 75, until it is 100 or they are; a run begins anew then. A block that is not even with those before begins a new run,
+/// and eight blocks of a run are judged.
 /// The accelerometer, where there is one, must be even and steady (24, for it flickers), too, or within 0.02 m/s^2 on the axis: of a coarse
-/// one, whose last digit comes and goes, no block is like the other. Its n is the number of specific forces that differ from the one before: one
-/// that is slower than the gyro, and holds or repeats its last, tells so much less. Neither level nor bias is judged: that takes a memory
+/// one, whose last digit comes and goes, no block is like the other. It has r and s of its own; its n is the number of specific forces that
+/// differ from the one before: one that is slower than the gyro, and holds or repeats its last, tells so much less. Neither level nor bias
+/// is judged: that takes a memory
 /// (standstill_learner.hpp). The verdict is a function of samples and sample rate alone: no clock.
-/// Constant memory of about 50 kB; nothing allocates after construction. One thread at a time.
+/// Constant memory of about 80 kB; nothing allocates after construction. One thread at a time.
 class RestDetector {
  public:
   static constexpr std::size_t kBlocks = 8;
@@ -79,21 +83,31 @@ class RestDetector {
   struct Block {
     double mean = 0.0;
     double variance = 0.0;
+    double variance_of_means = 0.0;  ///< of its parts
   };
   /// Sums over the block at work, counted from its first sample.
   struct Sums {
     double first = 0.0;
     double sum = 0.0;
     double squares = 0.0;
+    double part = 0.0;  ///< of the part at work
+    double means = 0.0;
+    double squared_means = 0.0;
   };
   using Window = std::array<Block, kBlocks>;
 
   void add(std::size_t input, double value) noexcept;
+  void end_part() noexcept;
   void end_block() noexcept;
+  void set_parts(std::size_t parts) noexcept;
+  void settle_block() noexcept;
   void end_segment() noexcept;
   void begin_run() noexcept;
   void end_half() noexcept;
   void take_force(const Triple& force) noexcept;
+  [[nodiscard]] const OwnLowPass& low_pass_of(std::size_t input) const noexcept {
+    return input < 3 ? low_pass_ : force_low_pass_;
+  }
   [[nodiscard]] double fewest_in(std::size_t input, std::size_t blocks) const noexcept;
   void average() noexcept;
   [[nodiscard]] RestVerdict judge() noexcept;
@@ -102,8 +116,11 @@ class RestDetector {
   [[nodiscard]] bool is_motionless(std::size_t input, std::size_t blocks) const noexcept;
   void listen() noexcept;
 
+  OwnLowPass low_pass_;
+  OwnLowPass force_low_pass_;
+  std::size_t part_samples_ = 0;  ///< of a part of a block: the shortest block
+  std::size_t parts_ = 1;         ///< of a block
   std::size_t block_samples_ = 0;
-  double even_ratio_ = 1.0;
   std::size_t inputs_ = 3;
   std::size_t in_block_ = 0;
   std::size_t bridged_ = 0;  ///< of these
