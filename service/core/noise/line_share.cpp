@@ -10,16 +10,43 @@ namespace {
 constexpr std::size_t kNeighbours = 12;
 constexpr double kStandsOut = 2.5;
 
-}  // namespace
+constexpr std::size_t kLineReach = 4;
+constexpr std::size_t kLineReachShare = 16;
 
-double line_share(const NoiseSpectrum& power) noexcept {
-  double lines = 0.0;
+/// What stands out, bin by bin. @return the power of all bins
+double find_excess(const NoiseSpectrum& power, NoiseSpectrum& excess) noexcept {
   double all = 0.0;
   for (std::size_t bin = kFirstNoiseBin; bin < kNoiseBins; ++bin) {
     all += power[bin];
-    lines += std::max(0.0, power[bin] - kStandsOut * median_around(power, bin, kNeighbours));
+    excess[bin] = std::max(0.0, power[bin] - kStandsOut * median_around(power, bin, kNeighbours));
   }
+  return all;
+}
+
+double share_of(const NoiseSpectrum& excess, double all) noexcept {
+  double lines = 0.0;
+  for (std::size_t bin = kFirstNoiseBin; bin < kNoiseBins; ++bin) lines += excess[bin];
   return all > 0.0 ? lines / all : 0.0;
+}
+
+}  // namespace
+
+double line_share(const NoiseSpectrum& power) noexcept {
+  NoiseSpectrum excess;
+  const double all = find_excess(power, excess);
+  return share_of(excess, all);
+}
+
+double further_line_share(const NoiseSpectrum& power) noexcept {
+  NoiseSpectrum excess;
+  const double all = find_excess(power, excess);
+  const auto strongest = static_cast<std::size_t>(
+      std::max_element(excess.begin() + kFirstNoiseBin, excess.end()) - excess.begin());
+  const std::size_t reach = std::max(kLineReach, strongest / kLineReachShare);
+  const std::size_t first = std::max(kFirstNoiseBin, strongest > reach ? strongest - reach : 0);
+  const std::size_t end = std::min(strongest + reach + 1, kNoiseBins);
+  for (std::size_t bin = first; bin < end; ++bin) excess[bin] = 0.0;
+  return share_of(excess, all);
 }
 
 }  // namespace gyrod::core

@@ -19,7 +19,7 @@ namespace gyrod::core {
 ///   alike:   so on all axes: each is that of the middle one of three, but for a line of its own in two bands.
 /// Roads, hands and engines have other shapes: each axis its own, with humps, or without a flat part.
 ///
-/// Bands are a quarter wide, of spectra of half overlapping segments of kNoiseSegment samples: the last four to eight, and four to eight
+/// Bands are a quarter wide, of spectra of half overlapping segments of kNoiseSegment samples: the last five to eight, and four to eight
 /// seconds of them at least. What they say is kept for four segments that say nothing.
 /// About 14 kB; nothing allocates after construction. One thread at a time.
 class OwnLowPass {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/noise/line_share.hpp"
-#include "core/signal/portable_math.hpp"
+#include "core/noise/rest_rules.hpp"
 
 namespace gyrod::core {
 namespace {
@@ -17,19 +17,6 @@ constexpr double kFewTelling = 75.0;
 constexpr double kEnoughTelling = 100.0;
 constexpr double kPlentyTelling = 400.0;
 constexpr std::size_t kMostParts = 4;
-/// Logarithms of block variances differ by sqrt(2 / n); real, coloured noise keeps eight to twelve of them within 6.3 of these.
-constexpr double kEvenDeviations = 7.5;
-/// A real sensor's level is not constant beyond this.
-constexpr double kMostEvenSamples = 400.0;
-constexpr double kSteady = 8.0;
-/// Accelerometers flicker more, and far more when they are moved.
-constexpr double kSteadyAccelerometer = 24.0;
-/// Two thousandths of gravity: the last digit of a coarse accelerometer, far below any road.
-constexpr double kMotionless_mps2 = 0.02;
-/// Still sensors have up to 0.28 (an ADIS16405's 20 Hz line), idling cars from 0.5 to 0.98.
-constexpr double kTone = 0.4;
-/// Fewer segments leave the spectrum of noise itself full of lines.
-constexpr double kFewestSegments = 2.0;
 /// Parts of a block that may be bridged. A bridged sample has half the variance of a measured one: 1 % off the level.
 constexpr double kMostBridged = 0.02;
 constexpr std::size_t kHalfWindow = RestDetector::kBlocks / 2;
@@ -40,11 +27,6 @@ void add_up(RestDetector::Segments& sum, const RestDetector::Segments& more) noe
     for (std::size_t k = 0; k < kNoiseBins; ++k) sum.power[axis][k] += more.power[axis][k];
   }
   sum.count += more.count;
-}
-
-/// How far apart the variances of blocks of so many samples may be, as a ratio.
-double most_uneven(double samples) noexcept {
-  return portable_exp(kEvenDeviations * std::sqrt(2.0 / std::min(samples, kMostEvenSamples)));
 }
 
 }  // namespace
@@ -285,14 +267,19 @@ double RestDetector::wandering(std::size_t input) const noexcept {
 
 /// Too few segments at the moment leave the answer that there was.
 void RestDetector::listen() noexcept {
-  if (this_half_.count + last_half_.count < kFewestSegments) return;
+  const double count = this_half_.count + last_half_.count;
+  if (count < kFewestSegments) return;
   listened_ = true;
   tone_ = false;
-  for (std::size_t axis = 0; axis < 3 && !tone_; ++axis) {
+  Triple further{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < kNoiseBins; ++k)
       scratch_[k] = this_half_.power[axis][k] + last_half_.power[axis][k];
-    tone_ = line_share(scratch_) > kTone;
+    tone_ = tone_ || line_share(scratch_) > kTone;
+    further[axis] = further_line_share(scratch_);
   }
+  std::ranges::sort(further);
+  tone_ = tone_ || further[1] > most_further(count, low_pass_.independent());
 }
 
 }  // namespace gyrod::core

@@ -30,7 +30,8 @@ enum class RestVerdict : std::uint8_t {
 ///   even:    max v_i / min v_i <= exp(7.5 sqrt(2 / min(r n, 400)));
 ///   steady:  var(m_i) n / mean(v_i) <= 8 s   (white noise: 1; chi-squared of 7 degrees, and twice that for colour),
 ///            m_i and n of parts of a block, one second each, where blocks are longer;
-///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4.
+///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4, and further_line_share() on all axes but one
+///            <= 0.08 (2 / segments)^(9/4) / r, at least 0.01: little more than chance. A sensor has a line, a road many.
 /// r and s are 1 but for a sensor that low-passes its noise: OwnLowPass::independent() and slow(). Blocks are twice and four times as long
 /// where r n is below 75, until it is 100 or they are; a run begins anew then. A block that is not even with those before begins a new run,
 /// and eight blocks of a run are judged.
