@@ -17,6 +17,7 @@
 #include "files/recording_reader.hpp"
 #include "files/recording_writer.hpp"
 #include "settings/enum_names.hpp"
+#include "settings/unused_keys.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -92,7 +93,8 @@ std::optional<Outcome> denoise_all(files::RecordingReader& reader, RowHandler& r
 }
 
 DenoiseSummary::Source source_of(const DenoiseFlags& flags, const DenoisePlan& plan,
-                                 const files::RecordingReader& reader, const Outcome& outcome) {
+                                 const files::RecordingReader& reader, const Outcome& outcome,
+                                 double sample_rate_hz) {
   const bool ar = !plan.whole_record || plan.options.models == core::ModelChoice::kAr;
   return {.input = flags.input,
           .output = flags.output,
@@ -104,7 +106,8 @@ DenoiseSummary::Source source_of(const DenoiseFlags& flags, const DenoisePlan& p
           .models = ar ? "ar" : "identified",
           .broken_rows = reader.broken_rows(),
           .rate_note = flags.recording.rate_note(reader),
-          .calibration_note = outcome.calibration_note};
+          .calibration_note = outcome.calibration_note,
+          .band_note = settings::unused_band(plan.settings, sample_rate_hz)};
 }
 
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
@@ -128,7 +131,7 @@ int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {
   }
 
   writer.close();
-  const DenoiseSummary::Source source = source_of(flags, plan, reader, *outcome);
+  const DenoiseSummary::Source source = source_of(flags, plan, reader, *outcome, summary.sample_rate_hz());
   if (summary_file) {
     summary_file->write(summary.json(source, outcome->counts));
     summary_file->close();

@@ -108,6 +108,7 @@ std::vector<std::string> DenoiseSummary::notes(const Source& source, const strea
   note(counts.missing, "samples missing from the input");
   note(source.broken_rows, "broken rows left out");
   if (!source.rate_note.empty()) notes.push_back(source.rate_note);
+  if (!source.band_note.empty()) notes.push_back(source.band_note);
   if (!source.calibration_note.empty())
     notes.push_back("the calibration of its noise " + source.calibration_note);
   if (const std::string misfit = misfit_words(); !misfit.empty()) notes.push_back(misfit);

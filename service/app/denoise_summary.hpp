@@ -46,6 +46,7 @@ class DenoiseSummary {
     std::uint64_t broken_rows = 0;
     std::string rate_note;         ///< RecordingFlags::rate_note()
     std::string calibration_note;  ///< other_rate_note()
+    std::string band_note;         ///< settings::unused_band()
   };
 
   /// Where the noise of the last window comes from, and since when, in words.

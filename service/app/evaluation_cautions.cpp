@@ -7,6 +7,7 @@
 #include "app/evaluated_methods.hpp"
 #include "app/evaluation_report.hpp"
 #include "core/noise/still_noise.hpp"
+#include "settings/unused_keys.hpp"
 
 namespace gyrod::app {
 namespace {
@@ -132,6 +133,8 @@ std::vector<std::string> cautions_of(const Evaluation& evaluation) {
   std::vector<std::string> all = evaluation.rows.cautions;
   if (std::ranges::any_of(evaluation.options.methods, takes_noise_model))
     tell_of_noise_models(evaluation, all);
+  const std::string band = settings::unused_band(evaluation.options.settings, evaluation.rows.rate_hz);
+  if (!band.empty()) all.push_back(band);
   tell_of_misfits(evaluation, all);
   if (evaluation.rows.noise_name.empty()) tell_of_other_units(evaluation, all);
   return all;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -31,19 +32,25 @@ std::vector<std::string> unused_keys(const Settings& settings) {
     lines.push_back(std::string(key) + " is " + value.dump() + ", which is for denoise.method \"" +
                     (is_joint ? "paper" : "joint") + "\"; it is \"" + (is_joint ? "joint" : "paper") + "\"");
   };
-  const double nyquist_hz = 0.5 * settings.engine.sample_rate_hz;
-  const double max_signal_hz = settings.denoise.max_signal_hz;
   if (is_joint) {
     std::ranges::for_each(kOfPaper, note);
-    if (nyquist_hz > 0.0 && max_signal_hz >= nyquist_hz) {
-      lines.push_back("denoise.max_signal_hz is " + json(max_signal_hz).dump() +
-                      "; at a denoise.sample_rate_hz of " + json(settings.engine.sample_rate_hz).dump() +
-                      " there is nothing above " + json(nyquist_hz).dump() + " Hz");
-    }
+    const std::string band = unused_band(settings, settings.engine.sample_rate_hz);
+    if (!band.empty()) lines.push_back(band);
   } else {
     std::ranges::for_each(kOfJoint, note);
   }
   return lines;
+}
+
+std::string unused_band(const Settings& settings, double sample_rate_hz) {
+  const double nyquist_hz = 0.5 * sample_rate_hz;
+  const double max_signal_hz = settings.denoise.max_signal_hz;
+  if (settings.denoise.method != Method::kJoint || !(nyquist_hz > 0.0) || max_signal_hz < nyquist_hz)
+    return "";
+  std::ostringstream line;
+  line << "denoise.max_signal_hz is " << max_signal_hz << "; at a sample rate of " << sample_rate_hz
+       << " Hz there is nothing above " << nyquist_hz << " Hz";
+  return line.str();
 }
 
 }  // namespace gyrod::settings

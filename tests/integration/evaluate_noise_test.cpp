@@ -209,5 +209,20 @@ TEST_F(EvaluateNoise, SaysWhatIsWrong) {
   }
 }
 
+// At 100 Hz. What is asked for in vain is told, offline too, where the recording has the rate and no key says it.
+TEST_F(EvaluateNoise, ASignalBandThatHoldsAllIsTold) {
+  write_file("in.csv", RestAndSwing{}.text());
+  for (const auto& [limit, told] : {std::pair("80", true), std::pair("40", false)}) {
+    write_file("gyrod.json", std::string(R"({"denoise": {"max_signal_hz": )") + limit + "}}");
+    const std::string words = std::string("max_signal_hz is ") + limit + "; at a sample rate of 100 Hz";
+    const json judged = figures({"--config", path("gyrod.json"), "--from", "40s"});
+    EXPECT_EQ(judged["cautions"].dump().find(words) != std::string::npos, told) << judged["cautions"];
+    const Result denoised = run({"denoise", path("in.csv"), "-o", path("out.csv"), "--allow-missing-axes",
+                                 "--config", path("gyrod.json")});
+    EXPECT_EQ(denoised.exit_code, ExitCode::kDone) << denoised.err;
+    EXPECT_EQ(denoised.err.find(words) != std::string::npos, told) << denoised.err;
+  }
+}
+
 }  // namespace
 }  // namespace gyrod::testing

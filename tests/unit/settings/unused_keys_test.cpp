@@ -40,11 +40,17 @@ TEST(UnusedKeys, WindowsThatAreNotToFollowTheRateAreOfMethodJoint) {
 }
 
 TEST(UnusedKeys, ASignalBandThatReachesHalfTheSampleRateIs) {
-  EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 60, "sample_rate_hz": 100}})"),
-              ElementsAre("denoise.max_signal_hz is 60.0; at a denoise.sample_rate_hz of 100.0 there is "
-                          "nothing above 50.0 Hz"));
+  EXPECT_THAT(
+      unused(R"({"denoise": {"max_signal_hz": 60, "sample_rate_hz": 100}})"),
+      ElementsAre("denoise.max_signal_hz is 60; at a sample rate of 100 Hz there is nothing above 50 Hz"));
   EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 49.9, "sample_rate_hz": 100}})"), IsEmpty());
   EXPECT_THAT(unused(R"({"denoise": {"max_signal_hz": 60}})"), IsEmpty()) << "the rate is not known";
+  Settings settings;
+  settings.denoise.max_signal_hz = 60.0;
+  EXPECT_EQ(unused_band(settings, 0.0), "");
+  EXPECT_NE(unused_band(settings, 100.0), "");
+  settings.denoise.method = Method::kPaper;
+  EXPECT_EQ(unused_band(settings, 100.0), "") << "it has no band";
 }
 
 TEST(UnusedKeys, AKeyOfTheMethodInUseAndAKeyAtItsDefaultAreNot) {
