@@ -96,18 +96,20 @@ DenoiseSummary::Source source_of(const DenoiseFlags& flags, const DenoisePlan& p
                                  const files::RecordingReader& reader, const Outcome& outcome,
                                  double sample_rate_hz) {
   const bool ar = !plan.whole_record || plan.options.models == core::ModelChoice::kAr;
-  return {.input = flags.input,
-          .output = flags.output,
-          .method = std::string(settings::name_of(plan.settings.denoise.method)),
-          .estimate = flags.choice.estimate,
-          .scheme = std::string(core::name_of(plan.settings.denoise.scheme)),
-          .whole_record = plan.whole_record,
-          .screening = std::string(settings::name_of(plan.settings.denoise.screening)),
-          .models = ar ? "ar" : "identified",
-          .broken_rows = reader.broken_rows(),
-          .rate_note = flags.recording.rate_note(reader),
-          .calibration_note = outcome.calibration_note,
-          .band_note = settings::unused_band(plan.settings, sample_rate_hz)};
+  const bool joint = plan.settings.denoise.method == settings::Method::kJoint;
+  return {
+      .input = flags.input,
+      .output = flags.output,
+      .method = std::string(settings::name_of(plan.settings.denoise.method)),
+      .estimate = flags.choice.estimate,
+      .scheme = std::string(core::name_of(plan.settings.denoise.scheme)),
+      .whole_record = plan.whole_record,
+      .screening = std::string(settings::name_of(plan.settings.denoise.screening)),
+      .models = ar ? "ar" : "identified",
+      .broken_rows = reader.broken_rows(),
+      .rate_note = flags.recording.rate_note(reader),
+      .calibration_note = outcome.calibration_note,
+      .band_note = joint ? settings::unused_band(plan.settings.denoise.max_signal_hz, sample_rate_hz) : ""};
 }
 
 int denoise(const DenoiseFlags& flags, Interrupt& interrupt) {

@@ -90,6 +90,14 @@ const char* suspicion(const EvaluationRows& rows, NoiseKnownBy by) noexcept {
   return "it changes";
 }
 
+/// Of the methods that take a noise model, which are those that take a signal band.
+void tell_of_models(const Evaluation& evaluation, std::vector<std::string>& cautions) {
+  tell_of_noise_models(evaluation, cautions);
+  const std::string band =
+      settings::unused_band(evaluation.options.settings.denoise.max_signal_hz, evaluation.rows.rate_hz);
+  if (!band.empty()) cautions.push_back(band);
+}
+
 /// The daemon would flag these samples.
 void tell_of_misfits(const Evaluation& evaluation, std::vector<std::string>& cautions) {
   const auto& [rows, options, judged] = evaluation;
@@ -131,10 +139,7 @@ void tell_of_other_units(const Evaluation& evaluation, std::vector<std::string>&
 
 std::vector<std::string> cautions_of(const Evaluation& evaluation) {
   std::vector<std::string> all = evaluation.rows.cautions;
-  if (std::ranges::any_of(evaluation.options.methods, takes_noise_model))
-    tell_of_noise_models(evaluation, all);
-  const std::string band = settings::unused_band(evaluation.options.settings, evaluation.rows.rate_hz);
-  if (!band.empty()) all.push_back(band);
+  if (std::ranges::any_of(evaluation.options.methods, takes_noise_model)) tell_of_models(evaluation, all);
   tell_of_misfits(evaluation, all);
   if (evaluation.rows.noise_name.empty()) tell_of_other_units(evaluation, all);
   return all;

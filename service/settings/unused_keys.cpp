@@ -34,7 +34,7 @@ std::vector<std::string> unused_keys(const Settings& settings) {
   };
   if (is_joint) {
     std::ranges::for_each(kOfPaper, note);
-    const std::string band = unused_band(settings, settings.engine.sample_rate_hz);
+    const std::string band = unused_band(settings.denoise.max_signal_hz, settings.engine.sample_rate_hz);
     if (!band.empty()) lines.push_back(band);
   } else {
     std::ranges::for_each(kOfJoint, note);
@@ -42,11 +42,9 @@ std::vector<std::string> unused_keys(const Settings& settings) {
   return lines;
 }
 
-std::string unused_band(const Settings& settings, double sample_rate_hz) {
+std::string unused_band(double max_signal_hz, double sample_rate_hz) {
   const double nyquist_hz = 0.5 * sample_rate_hz;
-  const double max_signal_hz = settings.denoise.max_signal_hz;
-  if (settings.denoise.method != Method::kJoint || !(nyquist_hz > 0.0) || max_signal_hz < nyquist_hz)
-    return "";
+  if (!(nyquist_hz > 0.0) || max_signal_hz < nyquist_hz) return "";
   std::ostringstream line;
   line << "denoise.max_signal_hz is " << max_signal_hz << "; at a sample rate of " << sample_rate_hz
        << " Hz there is nothing above " << nyquist_hz << " Hz";

@@ -13,8 +13,7 @@ namespace gyrod::settings {
 /// offline commands of a method use them whatever the daemon's is.
 [[nodiscard]] std::vector<std::string> unused_keys(const Settings& settings);
 
-/// Why the signal band of method joint leaves nothing out of samples at this rate; empty where it does, where there is none, and where the
-/// rate is 0.
-[[nodiscard]] std::string unused_band(const Settings& settings, double sample_rate_hz);
+/// Why denoise.max_signal_hz leaves nothing out of samples at this rate; empty where it does, where it is 0, and where the rate is 0.
+[[nodiscard]] std::string unused_band(double max_signal_hz, double sample_rate_hz);
 
 }  // namespace gyrod::settings

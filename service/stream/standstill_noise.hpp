@@ -56,7 +56,7 @@ struct StandstillOptions {
 /// core::StandstillLearner for a channel. The sample rate that it and the calibration are used at is the configured one. Without one
 /// it is that of the calibration or of what is remembered, until the stamps have said otherwise (by more than 2 %, and always the same)
 /// for kAgreeing samples in a row; then it is theirs: a calibration goes through core::at_rate(), and learning begins anew.
-/// Bridged positions are gaps to the learner where they are more than 2 % of a second's samples: what is interpolated has less noise. Of an
+/// Bridged positions are gaps to the learner where they are more than 2 % of a block's samples: what is interpolated has less noise. Of an
 /// accelerometer that fails for a few samples the last value holds; where it fails for longer, rest is judged without it until it has been back
 /// for kForcesAgain samples. Beside
 /// the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew where the learner does.

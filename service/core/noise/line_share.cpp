@@ -10,6 +10,8 @@ namespace {
 constexpr std::size_t kNeighbours = 12;
 constexpr double kStandsOut = 2.5;
 
+/// Without them.
+constexpr int kLinesOfASensor = 2;
 constexpr std::size_t kLineReach = 4;
 constexpr std::size_t kLineReachShare = 16;
 
@@ -29,6 +31,15 @@ double share_of(const NoiseSpectrum& excess, double all) noexcept {
   return all > 0.0 ? lines / all : 0.0;
 }
 
+void take_out_strongest(NoiseSpectrum& excess) noexcept {
+  const auto strongest = static_cast<std::size_t>(
+      std::max_element(excess.begin() + kFirstNoiseBin, excess.end()) - excess.begin());
+  const std::size_t reach = std::max(kLineReach, strongest / kLineReachShare);
+  const std::size_t first = std::max(kFirstNoiseBin, strongest > reach ? strongest - reach : 0);
+  const std::size_t end = std::min(strongest + reach + 1, kNoiseBins);
+  for (std::size_t bin = first; bin < end; ++bin) excess[bin] = 0.0;
+}
+
 }  // namespace
 
 double line_share(const NoiseSpectrum& power) noexcept {
@@ -37,16 +48,13 @@ double line_share(const NoiseSpectrum& power) noexcept {
   return share_of(excess, all);
 }
 
-double further_line_share(const NoiseSpectrum& power) noexcept {
+LineShares line_shares(const NoiseSpectrum& power) noexcept {
   NoiseSpectrum excess;
   const double all = find_excess(power, excess);
-  const auto strongest = static_cast<std::size_t>(
-      std::max_element(excess.begin() + kFirstNoiseBin, excess.end()) - excess.begin());
-  const std::size_t reach = std::max(kLineReach, strongest / kLineReachShare);
-  const std::size_t first = std::max(kFirstNoiseBin, strongest > reach ? strongest - reach : 0);
-  const std::size_t end = std::min(strongest + reach + 1, kNoiseBins);
-  for (std::size_t bin = first; bin < end; ++bin) excess[bin] = 0.0;
-  return share_of(excess, all);
+  LineShares shares{.all = share_of(excess, all)};
+  for (int line = 0; line < kLinesOfASensor; ++line) take_out_strongest(excess);
+  shares.further = share_of(excess, all);
+  return shares;
 }
 
 }  // namespace gyrod::core

@@ -13,8 +13,12 @@ namespace gyrod::core {
 /// Allocates nothing; about 20 us.
 [[nodiscard]] double line_share(const NoiseSpectrum& power) noexcept;
 
-/// The same without the strongest line: what stands out within four bins of the highest one, or 6 % of its frequency where that is more, is left out of the
-/// lines. A sensor has one, seldom two; a road and an engine with its harmonics have many.
-[[nodiscard]] double further_line_share(const NoiseSpectrum& power) noexcept;
+struct LineShares {
+  double all = 0.0;  ///< line_share()
+  /// Without the two strongest lines: what stands out within four bins of the highest one, or 6 % of its frequency where that is more, and then
+  /// of the highest of the others, is left out of the lines. A sensor has one, seldom two; a road and an engine with its harmonics have many.
+  double further = 0.0;
+};
+[[nodiscard]] LineShares line_shares(const NoiseSpectrum& power) noexcept;
 
 }  // namespace gyrod::core

@@ -18,7 +18,7 @@ constexpr std::size_t kFewestBins = 2;
 constexpr std::size_t kFewestLastBins = 10;
 constexpr double kSegmentsOfHalf = 4.0;
 constexpr double kSecondsOfHalf = 4.0;
-/// Wider noise passes for white as it is: of a filter of second order at half of half the rate 278 of 300 s are found.
+/// Nearly all of wider noise is found at rest by the rules as they are.
 constexpr double kNarrow = 0.5;
 /// Of the flat part: less than this in a band that chance does not explain ends it.
 constexpr double kEndOfFlat = 0.75;
@@ -112,7 +112,7 @@ OwnLowPass::Likeness OwnLowPass::compare() const noexcept {
     for (std::size_t band = 0; band < bands_; ++band)
       bands[band] = this_half_.axes[axis][band] + last_half_.axes[axis][band];
     const double mean = mean_density(bands, bands_);
-    if (!(mean > 0.0)) continue;
+    if (!(mean > 0.0) || !std::isfinite(mean)) continue;
     for (double& density : bands) density /= mean;
     ++result.alive;
   }

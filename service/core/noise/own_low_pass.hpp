@@ -14,7 +14,7 @@ namespace gyrod::core {
 /// fewer white ones do: block variances spread as those of n times independent() white samples, and block means have slow() times the
 /// variance that white noise of the same level would have. Two numbers for RestDetector, 1 and 1 unless the spectra look like that:
 ///   narrow:  (sum of S)^2 / (sum of S^2) is at most half the bins: equivalent statistical bandwidth, Bendat and Piersol, "Random Data";
-///   flat, then falling: no band stands above what is slower, three bands at least are alike at the slow end, and the last has less
+///   flat, then falling: no band stands above the one before by more than chance, three bands at least are alike at the slow end, and the last has less
 ///            than a tenth of these;
 ///   alike:   so on all axes: each is that of the middle one of three, but for a line of its own in two bands.
 /// Roads, hands and engines have other shapes: each axis its own, with humps, or without a flat part.

@@ -12,12 +12,14 @@ namespace {
 
 constexpr double kBlockSeconds = 1.0;
 constexpr double kFewestInBlock = 100.0;
-/// Samples of a block that tell something new: with fewer it is made longer, until it has enough; with plenty of them a short one will do.
-constexpr double kFewTelling = 75.0;
-constexpr double kEnoughTelling = 100.0;
-constexpr double kPlentyTelling = 400.0;
+/// Effective samples of a block: with fewer it is made longer, until it has enough; with plenty of them a short one will do.
+constexpr double kFewEffective = 75.0;
+constexpr double kEnoughEffective = 90.0;
+constexpr double kPlentyEffective = 400.0;
+/// So few, and fewer, let levels differ as of these: else a level that changes by five would be even.
+constexpr double kFewestEffective = 40.0;
 constexpr std::size_t kMostParts = 4;
-/// Parts of a block that may be bridged. A bridged sample has half the variance of a measured one: 1 % off the level.
+/// Share of a block's samples that may be bridged. A bridged sample has half the variance of a measured one: 1 % off the level.
 constexpr double kMostBridged = 0.02;
 constexpr std::size_t kHalfWindow = RestDetector::kBlocks / 2;
 constexpr std::size_t kHalfSegment = kNoiseSegment / 2;
@@ -142,11 +144,13 @@ void RestDetector::end_block() noexcept {
 
 /// Long enough for the noise that there is.
 void RestDetector::settle_block() noexcept {
-  const double telling = static_cast<double>(part_samples_) * low_pass_.independent();
-  const double now = telling * static_cast<double>(parts_);
-  if (now >= kFewTelling && (now <= kPlentyTelling || parts_ == 1)) return;
+  double independent = low_pass_.independent();
+  if (inputs_ == kInputs) independent = std::min(independent, force_low_pass_.independent());
+  const double effective = static_cast<double>(part_samples_) * independent;
+  const double now = effective * static_cast<double>(parts_);
+  if (now >= kFewEffective && now <= kPlentyEffective && independent < 1.0) return;
   std::size_t parts = 1;
-  while (parts < kMostParts && telling * static_cast<double>(parts) < kEnoughTelling) parts *= 2;
+  while (parts < kMostParts && effective * static_cast<double>(parts) < kEnoughEffective) parts *= 2;
   if (parts == parts_) return;
   set_parts(parts);
   begin_run();
@@ -169,6 +173,7 @@ void RestDetector::end_half() noexcept {
 }
 
 void RestDetector::interrupt() noexcept {
+  set_parts(1);
   begin_run();
   low_pass_.interrupt();
   force_low_pass_.interrupt();
@@ -212,9 +217,10 @@ bool RestDetector::newest_is_even() const noexcept {
       least = std::min(least, variance);
       most = std::max(most, variance);
     }
-    const double telling = std::min(fewest_in(input, std::min(blocks_ + 1, kBlocks)),
-                                    static_cast<double>(block_samples_) * low_pass_of(input).independent());
-    if (most > most_uneven(telling) * least) return false;
+    const double effective =
+        std::max(static_cast<double>(block_samples_) * low_pass_of(input).independent(), kFewestEffective);
+    const double fewest = std::min(effective, fewest_in(input, std::min(blocks_ + 1, kBlocks)));
+    if (most > most_uneven(fewest) * least) return false;
   }
   return true;
 }
@@ -271,15 +277,19 @@ void RestDetector::listen() noexcept {
   if (count < kFewestSegments) return;
   listened_ = true;
   tone_ = false;
+  std::size_t alive = 0;
   Triple further{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < kNoiseBins; ++k)
       scratch_[k] = this_half_.power[axis][k] + last_half_.power[axis][k];
-    tone_ = tone_ || line_share(scratch_) > kTone;
-    further[axis] = further_line_share(scratch_);
+    const LineShares lines = line_shares(scratch_);
+    tone_ = tone_ || lines.all > kTone;
+    further[axis] = lines.further;
+    alive += variance_[axis] > 0.0 ? 1U : 0U;
   }
   std::ranges::sort(further);
-  tone_ = tone_ || further[1] > most_further(count, low_pass_.independent());
+  // Of two axes both, of one that.
+  tone_ = tone_ || further[alive == 1 ? 2 : 1] > most_further(count, low_pass_.independent());
 }
 
 }  // namespace gyrod::core

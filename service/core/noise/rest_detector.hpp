@@ -17,7 +17,7 @@ using Triple = std::array<double, 3>;
 
 /// What the last eight blocks say.
 enum class RestVerdict : std::uint8_t {
-  kTooEarly,  ///< not eight blocks and two segments yet since the beginning or a gap
+  kTooEarly,  ///< not eight blocks and two segments yet since the beginning, a gap, or blocks of another length
   kFrozen,    ///< no axis changes at all: not a sensor at rest
   kUneven,  ///< within the last eight blocks the level of some axis changed more than a constant noise would
   kWandering,  ///< the mean of some axis varies more than its noise explains: slow motion
@@ -30,15 +30,15 @@ enum class RestVerdict : std::uint8_t {
 ///   even:    max v_i / min v_i <= exp(7.5 sqrt(2 / min(r n, 400)));
 ///   steady:  var(m_i) n / mean(v_i) <= 8 s   (white noise: 1; chi-squared of 7 degrees, and twice that for colour),
 ///            m_i and n of parts of a block, one second each, where blocks are longer;
-///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4, and further_line_share() on all axes but one
-///            <= 0.08 (2 / segments)^(9/4) / r, at least 0.01: little more than chance. A sensor has a line, a road many.
-/// r and s are 1 but for a sensor that low-passes its noise: OwnLowPass::independent() and slow(). Blocks are twice and four times as long
-/// where r n is below 75, until it is 100 or they are; a run begins anew then. A block that is not even with those before begins a new run,
-/// and eight blocks of a run are judged.
+///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4, and LineShares::further on all axes but one
+///            <= 0.055 (2 / segments)^(9/4) / r, at least 0.005: little more than chance. A sensor has a line or two, a road many.
+/// r and s are 1 but for a sensor that low-passes its noise: OwnLowPass::independent() and slow(). r n is taken to be 40 at least. Blocks are
+/// twice and four times as long where it is below 75, until it is 90 or they are, for as long as the noise is narrow; a run begins anew then.
+/// A block that is not even with those before begins a new run, and eight blocks of a run are judged.
 /// The accelerometer, where there is one, must be even and steady (24, for it flickers), too, or within 0.02 m/s^2 on the axis: of a coarse
-/// one, whose last digit comes and goes, no block is like the other. It has r and s of its own; its n is the number of specific forces that
-/// differ from the one before: one that is slower than the gyro, and holds or repeats its last, tells so much less. Neither level nor bias
-/// is judged: that takes a memory
+/// one, whose last digit comes and goes, no block is like the other. It has r and s of its own, and no more than the number of specific
+/// forces that differ from the one before count: one that is slower than the gyro, and holds or repeats its last, tells so much less; n is
+/// that number in the second rule. Neither level nor bias is judged: that takes a memory
 /// (standstill_learner.hpp). The verdict is a function of samples and sample rate alone: no clock.
 /// Constant memory of about 80 kB; nothing allocates after construction. One thread at a time.
 class RestDetector {

@@ -21,18 +21,19 @@ inline constexpr double kMotionless_mps2 = 0.02;
 inline constexpr double kTone = 0.4;
 /// Fewer segments leave the spectrum of noise itself full of lines.
 inline constexpr double kFewestSegments = 2.0;
-/// Line share beyond the strongest line that all axes but one keep to by chance, of so few segments: 0.072 at most in 20 000 spectra of white noise,
-/// 0.071 in 5856 of still ADIS16405s. Of three segments it is 0.032, of four 0.015, of six 0.005.
-inline constexpr double kFurther = 0.08;
+/// LineShares::further that all axes but one keep to by chance, of so few segments: 0.054 in 999 of 1000 spectra of white noise, 0.041 in 99 of 100 of
+/// still ADIS16405s. Of three segments it is 0.021, of four 0.009, of six 0.002.
+inline constexpr double kFurther = 0.055;
 /// Sensors do have weak lines.
-inline constexpr double kLeastFurther = 0.01;
+inline constexpr double kLeastFurther = 0.005;
 
 /// How far apart the variances of blocks of so many samples may be, as a ratio.
 [[nodiscard]] inline double most_uneven(double samples) noexcept {
   return portable_exp(kEvenDeviations * std::sqrt(2.0 / std::min(samples, kMostEvenSamples)));
 }
 
-/// Most that further_line_share() may be on all axes but one. Falls as the power 9/4 of the number of segments. Narrow noise is in fewer bins, of which more stands out.
+/// Most that LineShares::further may be on all axes but one. Falls as the power 9/4 of the number of segments. Narrow noise is in fewer bins, of
+/// which more stands out.
 [[nodiscard]] inline double most_further(double segments, double independent) noexcept {
   const double fewer = kFewestSegments / segments;
   const double by_chance = kFurther * fewer * fewer * std::sqrt(std::sqrt(fewer)) / independent;

@@ -69,7 +69,6 @@ void StandstillLearner::interrupt() noexcept {
 
 void StandstillLearner::end_block() noexcept {
   block_seconds_ = static_cast<double>(detector_.block_samples()) / state_.sample_rate_hz;
-  block_seconds_ = static_cast<double>(detector_.block_samples()) / state_.sample_rate_hz;
   at_rest_ = detector_.verdict() == RestVerdict::kRest && believes();
   if (at_rest_) learn();
 }

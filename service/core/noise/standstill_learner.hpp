@@ -40,7 +40,7 @@ class StandstillLearner {
   /// @pre sample_rate_hz > 0
   explicit StandstillLearner(double sample_rate_hz);
 
-  /// One sample, finite. Costs 0.1 us, and 0.3 ms once a block when it learns.
+  /// One sample, finite. Costs 0.1 us, three or six transforms every 256 samples, and 0.3 ms once a block when it learns.
   /// @param measured false where it lies on the line between its neighbours: RestDetector::bridge()
   /// @param rate rad/s
   /// @param accelerometer specific force, m/s^2, finite, or nullptr. Where this changes from one sample to the next it is a gap
@@ -54,7 +54,7 @@ class StandstillLearner {
   /// what was learned. Allocates nothing. @pre sample_rate_hz > 0
   void retime(double sample_rate_hz) noexcept;
 
-  /// Whether the last eight blocks were at rest; known at the end of each block (RestDetector: one second, 100 samples at least).
+  /// Whether the last eight blocks were at rest; known at the end of each block (RestDetector: one second, 100 samples at least, and up to four times that).
   [[nodiscard]] bool at_rest() const noexcept { return at_rest_; }
   /// Rises with every change of models().
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }

@@ -185,6 +185,35 @@ TEST(OwnLowPass, LetsRestBeFoundBehindIt) {
   }
 }
 
+// Blocks are long behind a low-pass of 5 Hz, and as short as ever once the noise is wide, with a gap or without.
+TEST(OwnLowPass, IsForgottenByRestToo) {
+  for (const bool gap : {true, false}) {
+    RestDetector detector(100.0);
+    testing::run(detector, filtered(12'000, {2, 0.05}, 11), [] {});
+    EXPECT_EQ(detector.block_samples(), 400U);
+    if (gap) detector.interrupt();
+    std::size_t n = 0;
+    std::size_t first = 0;
+    testing::run(detector, testing::still_axes(6000, 0.1, 12), [&] {
+      ++n;
+      if (first == 0 && n > 400 && detector.verdict() == RestVerdict::kRest) first = n;
+    });
+    EXPECT_EQ(detector.block_samples(), 100U);
+    EXPECT_LE(first, gap ? 800U : 3000U) << "eight blocks, and the spectra that have to tell before";
+    EXPECT_GT(first, 0U);
+  }
+}
+
+// Narrow noise allows for more than a doubling from block to block, but not for five times.
+TEST(OwnLowPass, LeavesALevelThatChangesVisibleBehindIt) {
+  Axes axes = filtered(40'000, {2, 0.025}, 11);
+  for (auto& axis : axes) {
+    for (std::size_t n = 0; n < axis.size(); ++n)
+      if (n / 800 % 2 == 1) axis[n] *= 2.5;
+  }
+  EXPECT_LT(at_rest(axes, 100.0), 0.02);
+}
+
 TEST(OwnLowPass, LetsAnAccelerometerBehindItBeAtRest) {
   const Axes axes = filtered(80'000, {2, 0.05}, 11);
   Axes forces = filtered(80'000, {2, 0.05}, 12);

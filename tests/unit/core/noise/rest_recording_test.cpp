@@ -49,13 +49,13 @@ TEST(RestOfRecordings, AStillSensorIsFoundAtRestNearlyAlways) {
   EXPECT_NEAR(std::sqrt(noise_variance(learner.models()[2])) * kDegPerRad, 0.432, 0.015);
 }
 
-// What a sensor with a DLPF of 20, 10, 5 Hz would say: 9954, 9860 and 9884 of 10000 s of imu1.
+// What a sensor with a DLPF of 20, 10, 5 Hz would say (docs/noise.md has the figures).
 TEST(RestOfRecordings, AStillSensorIsFoundAtRestBehindALowPass) {
   for (const double low_pass_hz : {20.0, 10.0, 5.0}) {
     StandstillLearner learner(100.0);
     const auto share = share_at_rest("adis16405_imu1_static_100hz.csv.gz", learner, low_pass_hz);
     if (!share) GTEST_SKIP() << "no recordings in " << test::data_folder();
-    EXPECT_GT(*share, 0.975) << low_pass_hz;
+    EXPECT_GT(*share, 0.95) << low_pass_hz;
   }
 }
 
