@@ -10,7 +10,6 @@ namespace {
 constexpr std::size_t kNeighbours = 12;
 constexpr double kStandsOut = 2.5;
 
-/// Without them.
 constexpr int kLinesOfASensor = 2;
 constexpr std::size_t kLineReach = 4;
 constexpr std::size_t kLineReachShare = 16;
@@ -41,12 +40,6 @@ void take_out_strongest(NoiseSpectrum& excess) noexcept {
 }
 
 }  // namespace
-
-double line_share(const NoiseSpectrum& power) noexcept {
-  NoiseSpectrum excess;
-  const double all = find_excess(power, excess);
-  return share_of(excess, all);
-}
 
 LineShares line_shares(const NoiseSpectrum& power) noexcept {
   NoiseSpectrum excess;

@@ -117,6 +117,7 @@ OwnLowPass::Likeness OwnLowPass::compare() const noexcept {
     ++result.alive;
   }
   if (result.alive < 2) return result;
+  result.spectra = kMedian * result.count * static_cast<double>(result.alive);
   find_middle(result);
   for (std::size_t axis = 0; axis < result.alive; ++axis) scale_to_middle(result.axes[axis], result.middle);
   find_middle(result);
@@ -163,8 +164,7 @@ OwnLowPass::Shape OwnLowPass::shape_of(const Bands& middle) const noexcept {
 std::size_t OwnLowPass::flat_bands(const Likeness& likeness) const noexcept {
   for (std::size_t flat = 1; flat < bands_; ++flat) {
     const double density = mean_density(likeness.middle, flat);
-    const double spectra = kMedian * likeness.count * static_cast<double>(likeness.alive);
-    const double chance_of = chance(flat, spectra);
+    const double chance_of = chance(flat, likeness.spectra);
     if (likeness.middle[flat] * std::sqrt(chance_of) < kEndOfFlat * density) return flat;
     if (likeness.middle[flat] > kRises * chance_of * density) return 0;
   }
@@ -172,9 +172,9 @@ std::size_t OwnLowPass::flat_bands(const Likeness& likeness) const noexcept {
 }
 
 bool OwnLowPass::falls(const Likeness& likeness, std::size_t flat) const noexcept {
-  const double spectra = kMedian * likeness.count * static_cast<double>(likeness.alive);
   for (std::size_t band = flat + 1; band < bands_; ++band) {
-    if (likeness.middle[band] > kRises * chance(band, spectra) * likeness.middle[band - 1]) return false;
+    if (likeness.middle[band] > kRises * chance(band, likeness.spectra) * likeness.middle[band - 1])
+      return false;
   }
   return likeness.middle[bands_ - 1] < kFallen * mean_density(likeness.middle, flat);
 }

@@ -58,7 +58,8 @@ class OwnLowPass {
     Axes axes{};
     Bands middle{};
     std::size_t alive = 0;
-    double count = 0.0;  ///< segments
+    double count = 0.0;    ///< segments
+    double spectra = 0.0;  ///< that the middle one is as good as the mean of
   };
 
   void end_segment(Periodogram& periodogram) noexcept;

@@ -187,7 +187,8 @@ RestVerdict RestDetector::judge() noexcept {
   average();
   if (std::ranges::all_of(variance_, [](double v) { return !(v > 0.0); })) return RestVerdict::kFrozen;
   for (std::size_t input = 0; input < inputs_; ++input) {
-    const double most = (input < 3 ? kSteady : kSteadyAccelerometer) * low_pass_of(input).slow();
+    const double most =
+        (input < 3 ? rest_rules::kSteady : rest_rules::kSteadyAccelerometer) * low_pass_of(input).slow();
     if (!is_motionless(input, kBlocks) && wandering(input) > most) return RestVerdict::kWandering;
   }
   listen();
@@ -220,7 +221,7 @@ bool RestDetector::newest_is_even() const noexcept {
     const double effective =
         std::max(static_cast<double>(block_samples_) * low_pass_of(input).independent(), kFewestEffective);
     const double fewest = std::min(effective, fewest_in(input, std::min(blocks_ + 1, kBlocks)));
-    if (most > most_uneven(fewest) * least) return false;
+    if (most > rest_rules::most_uneven(fewest) * least) return false;
   }
   return true;
 }
@@ -233,7 +234,7 @@ double RestDetector::fewest_in(std::size_t input, std::size_t blocks) const noex
   return fewest;
 }
 
-/// The accelerometer's axis has kept to kMotionless_mps2 over so many of the newest blocks.
+/// The accelerometer's axis has kept to rest_rules::kMotionless_mps2 over so many of the newest blocks.
 bool RestDetector::is_motionless(std::size_t input, std::size_t blocks) const noexcept {
   if (input < 3) return false;
   const Window& window = windows_[input];
@@ -246,7 +247,8 @@ bool RestDetector::is_motionless(std::size_t input, std::size_t blocks) const no
     highest = std::max(highest, block.mean);
     loudest = std::max(loudest, block.variance);
   }
-  return highest - lowest < kMotionless_mps2 && loudest < kMotionless_mps2 * kMotionless_mps2;
+  return highest - lowest < rest_rules::kMotionless_mps2 &&
+         loudest < rest_rules::kMotionless_mps2 * rest_rules::kMotionless_mps2;
 }
 
 /// Spread of the parts' means over what white noise of the blocks' level explains; 0 where nothing changes.
@@ -274,7 +276,7 @@ double RestDetector::wandering(std::size_t input) const noexcept {
 /// Too few segments at the moment leave the answer that there was.
 void RestDetector::listen() noexcept {
   const double count = this_half_.count + last_half_.count;
-  if (count < kFewestSegments) return;
+  if (count < rest_rules::kFewestSegments) return;
   listened_ = true;
   tone_ = false;
   std::size_t alive = 0;
@@ -283,13 +285,13 @@ void RestDetector::listen() noexcept {
     for (std::size_t k = 0; k < kNoiseBins; ++k)
       scratch_[k] = this_half_.power[axis][k] + last_half_.power[axis][k];
     const LineShares lines = line_shares(scratch_);
-    tone_ = tone_ || lines.all > kTone;
+    tone_ = tone_ || lines.all > rest_rules::kTone;
     further[axis] = lines.further;
     alive += variance_[axis] > 0.0 ? 1U : 0U;
   }
   std::ranges::sort(further);
   // Of two axes both, of one that.
-  tone_ = tone_ || further[alive == 1 ? 2 : 1] > most_further(count, low_pass_.independent());
+  tone_ = tone_ || further[alive == 1 ? 2 : 1] > rest_rules::most_further(count, low_pass_.independent());
 }
 
 }  // namespace gyrod::core

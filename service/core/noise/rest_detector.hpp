@@ -30,7 +30,7 @@ enum class RestVerdict : std::uint8_t {
 ///   even:    max v_i / min v_i <= exp(7.5 sqrt(2 / min(r n, 400)));
 ///   steady:  var(m_i) n / mean(v_i) <= 8 s   (white noise: 1; chi-squared of 7 degrees, and twice that for colour),
 ///            m_i and n of parts of a block, one second each, where blocks are longer;
-///   no tone: line_share() of the segments of the last four to eight blocks <= 0.4, and LineShares::further on all axes but one
+///   no tone: LineShares::all of the segments of the last four to eight blocks <= 0.4, and LineShares::further on all axes but one
 ///            <= 0.055 (2 / segments)^(9/4) / r, at least 0.005: little more than chance. A sensor has a line or two, a road many.
 /// r and s are 1 but for a sensor that low-passes its noise: OwnLowPass::independent() and slow(). r n is taken to be 40 at least. Blocks are
 /// twice and four times as long where it is below 75, until it is 90 or they are, for as long as the noise is narrow; a run begins anew then.

@@ -6,7 +6,7 @@
 
 #include "core/signal/portable_math.hpp"
 
-namespace gyrod::core {
+namespace gyrod::core::rest_rules {
 
 /// Logarithms of block variances differ by sqrt(2 / n); real, coloured noise keeps eight to twelve of them within 6.3 of these.
 inline constexpr double kEvenDeviations = 7.5;
@@ -40,4 +40,4 @@ inline constexpr double kLeastFurther = 0.005;
   return std::max(by_chance, kLeastFurther);
 }
 
-}  // namespace gyrod::core
+}  // namespace gyrod::core::rest_rules

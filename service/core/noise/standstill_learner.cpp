@@ -43,7 +43,6 @@ StandstillLearner::StandstillLearner(double sample_rate_hz) : detector_(sample_r
 
 void StandstillLearner::retime(double sample_rate_hz) noexcept {
   detector_.retime(sample_rate_hz);
-  block_seconds_ = static_cast<double>(detector_.block_samples()) / sample_rate_hz;
   segment_seconds_ = 0.5 * static_cast<double>(kNoiseSegment) / sample_rate_hz;
   least_segments_ = std::max(kLeastSegments, kFewestSeconds / segment_seconds_);
   most_segments_ = std::max(2.0 * kLeastSegments, kMemorySeconds / segment_seconds_);
