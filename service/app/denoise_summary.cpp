@@ -65,6 +65,7 @@ void DenoiseSummary::add(const stream::NoiseReport& report) {
     const stream::ModelFit& fit = (*report.model_fit)[i];
     axes_[i].misfit.add(fit.misfit ? 1.0 : 0.0);
     if (fit.wrong_noise) axes_[i].noise_ratio.add(fit.noise_ratio);
+    axes_[i].hidden_noise = axes_[i].hidden_noise || fit.hidden_noise;
   }
 }
 
@@ -80,19 +81,24 @@ std::string DenoiseSummary::misfit_words() const {
   constexpr double kFlagged = 0.01;
   std::string words;
   bool wrong_noise = false;
+  bool hidden_noise = false;
   for (std::size_t i = 0; i < stream::kAxes; ++i) {
     const Axis& axis = axes_[i];
     if (axis.misfit.mean() < kFlagged) continue;
     words += fmt::format("{}{} in {:.0f} % of the windows", words.empty() ? "" : ", ", stream::kAxisNames[i],
                          100.0 * axis.misfit.mean());
+    hidden_noise = hidden_noise || axis.hidden_noise;
     if (!(axis.noise_ratio.mean() > 0.0)) continue;
     wrong_noise = true;
     words += fmt::format(" (noise of {:.2g} times the deviation that is believed)", axis.noise_ratio.mean());
   }
   if (words.empty()) return words;
-  return "the model does not fit: " + words + "; " +
-         (wrong_noise ? "calibrate the sensor again"
-                      : "do not trust the deviations that are published there");
+  const std::string_view advice =
+      hidden_noise
+          ? "nothing is known of the noise, and a low-pass of the sensor's own hides it: calibrate the sensor"
+      : wrong_noise ? "calibrate the sensor again"
+                    : "do not trust the deviations that are published there";
+  return fmt::format("the model does not fit: {}; {}", words, advice);
 }
 
 std::vector<std::string> DenoiseSummary::notes(const Source& source, const stream::Counts& counts) const {

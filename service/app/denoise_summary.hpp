@@ -72,6 +72,7 @@ class DenoiseSummary {
     RunningMoments misfit;  ///< 1 in windows of which the model does not explain the input, else 0
     RunningMoments
         noise_ratio;  ///< stream::ModelFit::noise_ratio, in windows in which the noise is not as believed
+    bool hidden_noise = false;  ///< stream::ModelFit::hidden_noise, in any window
   };
   [[nodiscard]] std::string misfit_words() const;
   [[nodiscard]] nlohmann::ordered_json axes_json(bool whole_record) const;

@@ -24,12 +24,15 @@ bool is_heard(const ChannelSnapshot& sensor) {
 }
 
 std::string evidence(const ModelFit& fit) {
-  return fit.wrong_noise ? two_digits(fit.noise_ratio) + " times the noise that is believed"
-                         : "a normalised innovation of " + two_digits(fit.normalised_innovation);
+  if (fit.wrong_noise) return two_digits(fit.noise_ratio) + " times the noise that is believed";
+  if (fit.hidden_noise) return "noise that a low-pass of the sensor's own hides";
+  return "a normalised innovation of " + two_digits(fit.normalised_innovation);
 }
 
 /// @param wrong_noise of an axis: what is believed of the noise is wrong
-std::string_view advice(NoiseSource source, bool wrong_noise) {
+/// @param hidden_noise of an axis: nothing is, and it cannot be guessed
+std::string_view advice(NoiseSource source, bool wrong_noise, bool hidden_noise) {
+  if (hidden_noise) return "let it stand still for two minutes, with the engine off, or calibrate it";
   if (!wrong_noise) return "do not trust its deviations; if that stays while it stands still, calibrate it";
   if (source == NoiseSource::kCalibrated)
     return "calibrate it again, or take the calibration out and let it stand still for a minute";
@@ -51,15 +54,17 @@ std::string trouble(const ChannelSnapshot& sensor, const Axes& axes) {
   const auto& fit = *sensor.last_report.model_fit;
   std::string seen;
   bool wrong_noise = false;
+  bool hidden_noise = false;
   for (std::size_t axis = 0; axis < stream::kAxes; ++axis) {
     if (!axes[axis]) continue;
     seen += std::string(seen.empty() ? "" : ", ") + stream::kAxisNames[axis] + " has " + evidence(fit[axis]);
     wrong_noise = wrong_noise || fit[axis].wrong_noise;
+    hidden_noise = hidden_noise || fit[axis].hidden_noise;
   }
   const NoiseSource source = sensor.last_report.noise_source;
   return sensor.sensor + " " + names_of(axes) + ": the model has not fitted for a minute (" + seen +
          "; noise source " + std::string(stream::name_of(source)) +
-         "): " + std::string(advice(source, wrong_noise));
+         "): " + std::string(advice(source, wrong_noise, hidden_noise));
 }
 
 }  // namespace

@@ -103,7 +103,8 @@ Json fit_of(const stream::NoiseReport& report, std::size_t axis) {
           {"misfits", fit.misfits},
           {"fallbacks", fit.fallbacks},
           {"wrong_noise", fit.wrong_noise},
-          {"noise_ratio", fit.noise_ratio}};
+          {"noise_ratio", fit.noise_ratio},
+          {"hidden_noise", fit.hidden_noise}};
 }
 
 Json axis_json(const stream::ChannelSnapshot& sensor, std::size_t axis) {

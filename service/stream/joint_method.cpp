@@ -117,10 +117,17 @@ class JointFilter final : public SampleFilter {
     bank_.use(joint);
     noise_level_ = joint.noise.shown_level();
     noise_disagrees_ = joint.noise.disagrees();
-    if (!has_model_ && joint.noise.has_seen_a_window()) fit_.wrong_noise = noise_disagrees_;
+    noise_is_hidden_ = joint.noise.is_hidden();
+    if (!has_model_ && joint.noise.has_seen_a_window()) {
+      fit_.wrong_noise = noise_disagrees_;
+      fit_.hidden_noise = noise_is_hidden_;
+    }
     has_model_ = true;
     guesses_ = joint.noise.belief() == core::NoiseBelief::kNothing;
-    if (guesses_) forget_wrong_noise();
+    if (guesses_)
+      forget_wrong_noise();
+    else
+      forget_hidden_noise();
     rescale(joint.scale);
     fit_.fallbacks += joint.fallbacks;
   }
@@ -139,10 +146,12 @@ class JointFilter final : public SampleFilter {
     fit_ = {};
     noise_level_ = 1.0;
     noise_disagrees_ = false;
+    noise_is_hidden_ = false;
     has_model_ = false;
     guesses_ = false;
     unlikely_ = 0;
     forget_wrong_noise();
+    forget_hidden_noise();
     rescale({});
   }
 
@@ -151,6 +160,20 @@ class JointFilter final : public SampleFilter {
   void forget_wrong_noise() noexcept {
     fit_.wrong_noise = false;
     otherwise_ = 0;
+  }
+
+  /// Where something is believed, nothing of it is guessed.
+  void forget_hidden_noise() noexcept {
+    fit_.hidden_noise = false;
+    otherwise_hidden_ = 0;
+  }
+
+  /// Takes over what has been otherwise for long enough.
+  void settle(bool& told, bool now, unsigned& otherwise) const noexcept {
+    otherwise = now == told ? 0 : otherwise + 1;
+    if (otherwise < steady_) return;
+    told = now;
+    otherwise = 0;
   }
 
   static Estimate estimate(const core::BankEstimate& answer) noexcept {
@@ -165,7 +188,7 @@ class JointFilter final : public SampleFilter {
   void judge() noexcept {
     judge_noise();
     judge_innovation();
-    const bool misfit = fit_.wrong_noise || unlikely_ > 0;
+    const bool misfit = fit_.wrong_noise || fit_.hidden_noise || unlikely_ > 0;
     if (misfit && !fit_.misfit) ++fit_.misfits;
     fit_.misfit = misfit;
   }
@@ -182,11 +205,8 @@ class JointFilter final : public SampleFilter {
   }
 
   void judge_noise() noexcept {
-    otherwise_ = noise_disagrees_ == fit_.wrong_noise ? 0 : otherwise_ + 1;
-    if (otherwise_ >= steady_) {
-      fit_.wrong_noise = noise_disagrees_;
-      otherwise_ = 0;
-    }
+    settle(fit_.wrong_noise, noise_disagrees_, otherwise_);
+    settle(fit_.hidden_noise, noise_is_hidden_, otherwise_hidden_);
     fit_.noise_ratio = fit_.wrong_noise ? std::sqrt(noise_level_) : 1.0;
   }
 
@@ -194,12 +214,14 @@ class JointFilter final : public SampleFilter {
   ModelFit fit_;
   double noise_level_ = 1.0;  ///< power, in parts of the believed one
   bool noise_disagrees_ = false;
+  bool noise_is_hidden_ = false;
   bool guesses_ = false;    ///< nothing is believed of the noise
   bool has_model_ = false;  ///< since a reset, which what models remember of the noise outlasts
   unsigned least_spell_ = static_cast<unsigned>(kLeastSpell);  ///< samples
   unsigned steady_ = static_cast<unsigned>(kSteady);           ///< samples
-  unsigned unlikely_ = 0;   ///< samples that the innovations have been so, least_spell_ at most
-  unsigned otherwise_ = 0;  ///< samples in a row that it is not what fit_.wrong_noise says
+  unsigned unlikely_ = 0;          ///< samples that the innovations have been so, least_spell_ at most
+  unsigned otherwise_ = 0;         ///< samples in a row that it is not what fit_.wrong_noise says
+  unsigned otherwise_hidden_ = 0;  ///< likewise of fit_.hidden_noise
 };
 
 }  // namespace

@@ -20,7 +20,10 @@ struct ModelFit {
   /// The noise is not as strong as it is believed to be, and has not been for some time: a calibration is of another sensor, or old. `misfit` with
   /// it.
   bool wrong_noise = false;
-  /// Where it is not: its standard deviation, as the models find it, in parts of the believed one; else 1.
+  /// Nothing is known of the noise, and it cannot be guessed, for some time: a low-pass of the sensor's own hides it, and next to nothing is taken
+  /// off. `misfit` with it.
+  bool hidden_noise = false;
+  /// Where it is not as strong as believed: its standard deviation, as the models find it, in parts of the believed one; else 1.
   double noise_ratio = 1.0;
 
   friend bool operator==(const ModelFit&, const ModelFit&) = default;

@@ -25,8 +25,8 @@ const gyrodFacts = (() => {
 
   function fit(axis) {
     if (!axis.fit) return "not known: this method has no model of the whole window";
-    const { normalised_innovation: size, misfit, misfits, fallbacks, wrong_noise: wrong, noise_ratio: ratio } = axis.fit;
-    const trouble = wrong ? `, does not fit now: ${number(ratio, 2)} times the noise that is believed` : misfit ? ", does not fit now" : "";
+    const { normalised_innovation: size, misfit, misfits, fallbacks, wrong_noise: wrong, noise_ratio: ratio, hidden_noise: hidden } = axis.fit;
+    const trouble = wrong ? `, does not fit now: ${number(ratio, 2)} times the noise that is believed` : hidden ? ", its noise is unknown, behind a low-pass of its own" : misfit ? ", does not fit now" : "";
     return `innovation ${number(size, 3)} of what the model expects${trouble}; ${units.count(misfits)} misfits, ${units.count(fallbacks)} fallbacks`;
   }
 

@@ -58,7 +58,7 @@ function report(one) {
     model_epoch: 371, window_samples: 1024, window_time_s: 0.0021, lag_samples: 16, hop_samples: 32, last_sequence: 119999, last_stamp_ns: "1700000000000000000", flags: [],
     axes: one.axes.map((a, i) => ({
       j: 2, k: 4, modes: 3, mean_radps: 0.0011 * (i + 1), noise_floor_radps: a.noise_in_radps, output_noise_radps: a.noise_out_radps,
-      tone: i === 0 ? { frequency_hz: 27, amplitude_radps: 0.004 } : null, fit: { normalised_innovation: 1.02, misfit: false, misfits: 0, fallbacks: 0, wrong_noise: false, noise_ratio: 1 },
+      tone: i === 0 ? { frequency_hz: 27, amplitude_radps: 0.004 } : null, fit: { normalised_innovation: 1.02, misfit: false, misfits: 0, fallbacks: 0, wrong_noise: false, noise_ratio: 1, hidden_noise: false },
       imfs: imfs(a.noise_in_radps ?? kNoise_radps),
     })),
   };

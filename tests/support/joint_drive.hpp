@@ -183,7 +183,7 @@ inline JointFigures joint_figures(const DriveRow& row, const core::NoiseModel& n
       for (auto& bank : banks) bank.use(*model);
       if (t >= begin) {
         windows += 1.0;
-        figures.alarm += model->noise.disagrees() ? 1.0 : 0.0;
+        figures.alarm += model->noise.disagrees() || model->noise.is_hidden() ? 1.0 : 0.0;
       }
     }
     std::array<core::BankEstimate, kJointLags.size()> estimates;

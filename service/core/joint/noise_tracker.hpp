@@ -55,6 +55,10 @@ class NoiseTracker {
   /// True where the level is so far from 1 that the believed noise is wrong; and where all bands have become louder alike, for as long as that
   /// lasts: noise that has become stronger, or shaking at all frequencies, which is not believed to be noise before it has lasted for minutes.
   [[nodiscard]] bool disagrees() const noexcept;
+  /// True where nothing is believed and the spectrum falls on to half the sample rate, as noise behind a sensor's own low-pass does: no band rises, of the
+  /// upper four bands each has at most 0.75 of the one before, until there is a twentieth of the first, and the last has less than a fifth. The
+  /// quietest band, by which noise is guessed, then says nothing of the others. Without a low-pass spectra end in a floor.
+  [[nodiscard]] bool is_hidden() const noexcept;
   /// level(), or where all bands have become louder alike what these show, if that is more: what is to be told, not what is believed.
   /// 1 where nothing is believed: there level() is in the data's unit.
   [[nodiscard]] double shown_level() const noexcept {

@@ -104,6 +104,14 @@ TEST(DenoiseSummary, SaysHowMuchOfTheTimeTheModelOfWhichAxisDoesNotFit) {
             "believed); "
             "calibrate the sensor again");
   EXPECT_NE(wrong.json({}, {}).find("\"misfit_share\": 1.0"), std::string::npos);
+  app::DenoiseSummary hidden;
+  stream::NoiseReport report = reported(true, 1.0);
+  (*report.model_fit)[1].hidden_noise = true;
+  hidden.add(report);
+  ASSERT_EQ(hidden.notes({}, {}).size(), 1U);
+  EXPECT_EQ(hidden.notes({}, {})[0],
+            "the model does not fit: y in 100 % of the windows; nothing is known of the noise, and a "
+            "low-pass of the sensor's own hides it: calibrate the sensor");
 }
 
 TEST(DenoiseRecord, EstimatesAreWhatTheOfflineDenoiserGives) {

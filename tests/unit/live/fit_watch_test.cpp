@@ -58,6 +58,18 @@ TEST_F(FitWatchTest, AModelThatFitsAndAWindowMethodAreNoNews) {
   EXPECT_THAT(after(600.0), IsEmpty());
 }
 
+TEST_F(FitWatchTest, NoiseThatALowPassHidesAsksForRest) {
+  sensors_[0].last_report.noise_source = stream::NoiseSource::kImf1;
+  fit(kY).misfit = fit(kY).hidden_noise = true;
+  fit(kY).misfits = 1;
+  const auto begun = after(80.0);
+  ASSERT_THAT(begun, SizeIs(1));
+  EXPECT_EQ(
+      begun[0].text,
+      "front axis y: the model has not fitted for a minute (y has noise that a low-pass of the sensor's own "
+      "hides; noise source imf1): let it stand still for two minutes, with the engine off, or calibrate it");
+}
+
 TEST_F(FitWatchTest, AMisfitIsToldOnceWhenItHasHeldForAMinuteAndOnceWhenItHasBeenOverForOne) {
   break_fit(kY);
   EXPECT_THAT(after(60.0), IsEmpty());

@@ -28,7 +28,9 @@ class MisfitOfAFilter : public ::testing::Test {
   }
   /// @param believed the noise's variance, in parts of what it is; 0: nothing is
   void use(double rate_hz, double believed) {
-    const auto noise = testing::times(testing::white_noise(1024, 1), kStd);
+    use(rate_hz, believed, testing::times(testing::white_noise(1024, 1), kStd));
+  }
+  void use(double rate_hz, double believed, const std::vector<double>& noise) {
     const auto model = factory_.model(1024);
     const auto method = factory_.method(1024, 32);
     core::WindowReport report;
@@ -92,6 +94,37 @@ TEST_F(MisfitOfAFilter, LastsForTheSameSecondsAtLeastAtAHighRate) {
     // It is back at 0.8 of 1.5 in 35 or 274.
     EXPECT_EQ(flagged(after(1.5, 4 * least)), least - 1) << rate_hz;
   }
+}
+
+/// Behind a low-pass: a pole at 0.5, and the mean of two samples. At 0.28, 0.34, 0.41, 0.47 cycles a sample it leaves 0.070, 0.033, 0.0094, 0.0010 of
+/// the power.
+std::vector<double> low_passed_noise(std::size_t samples) {
+  auto noise = testing::times(testing::white_noise(samples, 4), kStd);
+  double slow = 0.0;
+  for (double& value : noise) {
+    const double before = slow;
+    slow = 0.5 * (slow + value);
+    value = 0.5 * (slow + before);
+  }
+  return noise;
+}
+
+// What a window's guess is made of is what the low-pass leaves. Said from the 512th sample in a row on.
+TEST_F(MisfitOfAFilter, IsThereForNoiseThatALowPassHidesUntilTheNoiseIsKnown) {
+  const auto noise = low_passed_noise(1024);
+  use(100.0, 0.0, noise);
+  unsigned taken = 0;
+  while (taken < 512 && !filter_->model_fit().hidden_noise) filter_->step(noise[taken++]);
+  EXPECT_EQ(taken, 512U);
+  EXPECT_TRUE(filter_->model_fit().misfit);
+  EXPECT_FALSE(filter_->model_fit().wrong_noise);
+  use(100.0, 1.0, noise);
+  EXPECT_FALSE(filter_->model_fit().hidden_noise);
+  filter_->reset();
+  use(100.0, 0.0, noise);
+  EXPECT_TRUE(filter_->model_fit().hidden_noise) << "what models remember outlasts a gap";
+  filter_->reset();
+  EXPECT_FALSE(filter_->model_fit().hidden_noise) << "no model yet";
 }
 
 // A level that is a ninth of the believed one is said to be wrong by the 512th sample in a row, and right again by the 512th.
