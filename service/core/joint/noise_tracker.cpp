@@ -65,7 +65,7 @@ constexpr double kManyAlike = 1.3;
 /// Below the believed level all that the bands show is believed, as motion only adds; so far, in case a sensor was asleep.
 constexpr double kLowestLevel = 1e-3;
 /// Noise that a low-pass hides: of the upper bands each has at most so much of the one before, until there is kGone of the first, where what is left
-/// of a spectrum may be leakage, and the last has less than kFallen. TUM VI's gyro, behind 75 Hz at 200, has 0.36. Source: docs/joint.md, "What is reported".
+/// of a spectrum may be leakage, and the last has less than kFallen. Source: docs/joint.md, "What is reported".
 constexpr std::size_t kUpperBands = 4;
 constexpr double kFalls = 0.75;
 constexpr double kFallen = 0.2;
