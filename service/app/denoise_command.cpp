@@ -167,9 +167,8 @@ constexpr const char* kFooter =
 
 void add_noise_options(CLI::App& command, DenoiseChoice& flags) {
   command
-      .add_option(
-          "--noise", flags.noise,
-          "Calibration of the sensor's noise, by gyrod calibrate [as configured, else learned at rest]")
+      .add_option("--noise", flags.noise,
+                  "Calibration of the sensor's noise, by gyrod calibrate [as configured, else learned]")
       ->type_name("FILE.json");
   command
       .add_option("--sensor", flags.sensor,

@@ -65,14 +65,15 @@ void DenoiseSummary::add(const stream::NoiseReport& report) {
     const stream::ModelFit& fit = (*report.model_fit)[i];
     axes_[i].misfit.add(fit.misfit ? 1.0 : 0.0);
     if (fit.wrong_noise) axes_[i].noise_ratio.add(fit.noise_ratio);
-    axes_[i].hidden_noise = axes_[i].hidden_noise || fit.hidden_noise;
+    axes_[i].was_hidden = axes_[i].was_hidden || fit.hidden_noise;
+    axes_[i].is_hidden = fit.hidden_noise;
   }
 }
 
 std::string DenoiseSummary::noise_words() const {
   if (noise_source_ == stream::NoiseSource::kNone) return "noise by the record itself";
   const std::string source = "noise source " + std::string(stream::name_of(noise_source_));
-  if (noise_source_ == stream::NoiseSource::kImf1) return source + " (guessed from each window)";
+  if (noise_source_ == stream::NoiseSource::kImf1) return source + " (judged by the signal itself)";
   return source + " from sample " + std::to_string(noise_source_since_) + " on";
 }
 
@@ -81,21 +82,24 @@ std::string DenoiseSummary::misfit_words() const {
   constexpr double kFlagged = 0.01;
   std::string words;
   bool wrong_noise = false;
-  bool hidden_noise = false;
+  bool is_hidden = false;
+  bool was_hidden = false;
   for (std::size_t i = 0; i < stream::kAxes; ++i) {
     const Axis& axis = axes_[i];
     if (axis.misfit.mean() < kFlagged) continue;
     words += fmt::format("{}{} in {:.0f} % of the windows", words.empty() ? "" : ", ", stream::kAxisNames[i],
                          100.0 * axis.misfit.mean());
-    hidden_noise = hidden_noise || axis.hidden_noise;
+    is_hidden = is_hidden || axis.is_hidden;
+    was_hidden = was_hidden || axis.was_hidden;
     if (!(axis.noise_ratio.mean() > 0.0)) continue;
     wrong_noise = true;
     words += fmt::format(" (noise of {:.2g} times the deviation that is believed)", axis.noise_ratio.mean());
   }
   if (words.empty()) return words;
   const std::string_view advice =
-      hidden_noise
+      is_hidden
           ? "nothing is known of the noise, and a low-pass of the sensor's own hides it: calibrate the sensor"
+      : was_hidden ? "a low-pass of the sensor's own hid the noise until it was learned: calibrate the sensor"
       : wrong_noise ? "calibrate the sensor again"
                     : "do not trust the deviations that are published there";
   return fmt::format("the model does not fit: {}; {}", words, advice);

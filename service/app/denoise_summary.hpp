@@ -72,7 +72,8 @@ class DenoiseSummary {
     RunningMoments misfit;  ///< 1 in windows of which the model does not explain the input, else 0
     RunningMoments
         noise_ratio;  ///< stream::ModelFit::noise_ratio, in windows in which the noise is not as believed
-    bool hidden_noise = false;  ///< stream::ModelFit::hidden_noise, in any window
+    bool was_hidden = false;  ///< stream::ModelFit::hidden_noise, in any window
+    bool is_hidden = false;   ///< in the last one
   };
   [[nodiscard]] std::string misfit_words() const;
   [[nodiscard]] nlohmann::ordered_json axes_json(bool whole_record) const;

@@ -141,7 +141,7 @@ void add_noise(CLI::App& command, EvaluateFlags& flags) {
           "--calibration", flags.calibration,
           "Calibration of the noise that is added, or of the recording's sensor, by gyrod calibrate, for\n"
           "joint and realtime [by noise.source: as configured, else the samples of --noise that are not\n"
-          "added, else learned at rest in the record]")
+          "added, else learned in the record]")
       ->type_name("FILE.json");
   command.add_option("--sensor", flags.sensor, "Whose noise it is: finds its calibration")
       ->type_name("ID")

@@ -52,7 +52,7 @@ RememberedRuns::Run two_speed_runs(const MethodContext& context, std::vector<Joi
     axes[axis] = noisy_dps;
     if (!learns) return joint_contenders(run, answers, axis, axes);
     JointRun own = run;
-    own.noise[axis] = learned_at_rest({noisy_dps, {}, {}}, run.sample_rate_hz)[0];
+    own.noise[axis] = learned_from({noisy_dps, {}, {}}, run.sample_rate_hz)[0];
     return joint_contenders(own, answers, axis, axes);
   };
 }

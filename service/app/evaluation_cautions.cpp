@@ -84,6 +84,8 @@ const char* suspicion(const EvaluationRows& rows, NoiseKnownBy by) noexcept {
                                   : "is the sensor at rest in all of the noise file?";
     case NoiseKnownBy::kRest:
       return "was the sensor at rest where it was learned?";
+    case NoiseKnownBy::kMotion:
+      return "does it shake as noise would?";
     case NoiseKnownBy::kNothing:
       break;
   }
@@ -153,6 +155,8 @@ const char* noise_model_words(const JudgedRow& row) noexcept {
       return "calibrated from the other samples of the noise file";
     case NoiseKnownBy::kRest:
       return "learned at rest in the record";
+    case NoiseKnownBy::kMotion:
+      return "learned in motion, behind the sensor's low-pass";
     case NoiseKnownBy::kNothing:
       break;
   }

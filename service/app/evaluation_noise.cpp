@@ -65,10 +65,12 @@ RowNoise told_beforehand(const NoiseKnowledge& known, const std::string& axis,
 
 void add_learned(NoiseCourse learned, RowNoise& noise) {
   noise.course = std::move(learned);
-  const auto first = std::ranges::find_if(
-      noise.course, [](const KnownNoise& known) { return core::is_usable(known.model); });
+  const auto tells = [](const KnownNoise& known) { return core::is_usable(known.model); };
+  const auto first = std::ranges::find_if(noise.course, tells);
   if (first == noise.course.end()) return;
-  noise.by = NoiseKnownBy::kRest;
+  const bool rested = std::ranges::any_of(
+      noise.course, [&](const KnownNoise& known) { return tells(known) && !known.in_motion; });
+  noise.by = rested ? NoiseKnownBy::kRest : NoiseKnownBy::kMotion;
   noise.from_sample = first->from_sample;
 }
 

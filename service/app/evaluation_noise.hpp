@@ -34,6 +34,7 @@ enum class NoiseKnownBy : std::uint8_t {
   kCalibration,   ///< a file of `gyrod calibrate`
   kSpareSamples,  ///< those of the noise recording that are not added
   kRest,          ///< stretches of the record that look at rest
+  kMotion,        ///< what is faster than the motion, behind a low-pass of the sensor's own
 };
 
 struct RowNoise {
@@ -41,7 +42,7 @@ struct RowNoise {
   NoiseCourse course;  ///< deg/s; nothing usable in it where nothing is known
   /// The first sample behind which a window may end whose noise is known; nothing: there is none.
   std::optional<std::size_t> from_sample;
-  /// Nothing is known beforehand, and what is learned at rest may be used: in runs that are no part of the record, too.
+  /// Nothing is known beforehand, and what is learned may be used: in runs that are no part of the record, too.
   bool learns = false;
 };
 
@@ -54,7 +55,7 @@ struct RowNoise {
                                        const std::vector<std::span<const double>>& spare, double scale,
                                        double rate_hz);
 
-/// Adds what was learned at rest. @pre noise.learns
+/// Adds what was learned. Said to be by rest where some of it is. @pre noise.learns
 void add_learned(NoiseCourse learned, RowNoise& noise);
 
 /// What a calibration lacks for a record: another sample rate, axes that it does not have.

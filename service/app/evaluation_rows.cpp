@@ -229,7 +229,7 @@ class RowMaker {
     if (std::ranges::none_of(learns, std::identity{})) return;
     std::array<std::span<const double>, 3> rates;
     std::ranges::copy(sensor.noisy_dps, rates.begin());
-    const auto courses = learned_at_rest(rates, record_.sample_rate_hz);
+    const auto courses = learned_from(rates, record_.sample_rate_hz);
     for (std::size_t i = 0; i < 3; ++i) {
       if (learns[i]) sensor.noise[i] = courses[i];
     }

@@ -8,14 +8,14 @@
 
 namespace gyrod::app {
 
-NoiseCourse known_throughout(const core::NoiseModel& model) { return {{0, model}}; }
+NoiseCourse known_throughout(const core::NoiseModel& model) { return {{0, model, false}}; }
 
 core::NoiseModel known_at(const NoiseCourse& course, std::size_t end) noexcept {
   const auto next = std::ranges::upper_bound(course, end, {}, &KnownNoise::from_sample);
   return next == course.begin() ? core::NoiseModel{} : std::prev(next)->model;
 }
 
-std::array<NoiseCourse, stream::kAxes> learned_at_rest(
+std::array<NoiseCourse, stream::kAxes> learned_from(
     const std::array<std::span<const double>, stream::kAxes>& rates_dps, double rate_hz) {
   stream::StandstillOptions options;
   options.sample_rate_hz = rate_hz;
@@ -32,7 +32,8 @@ std::array<NoiseCourse, stream::kAxes> learned_at_rest(
     if (!noise) continue;
     // Of a source kNone the models are not usable: what was learned is forgotten.
     for (std::size_t axis = 0; axis < stream::kAxes; ++axis)
-      courses[axis].push_back({n + 1, core::scaled(noise->axis[axis], kDegPerRad)});
+      courses[axis].push_back(
+          {n + 1, core::scaled(noise->axis[axis], kDegPerRad), noise->source == stream::NoiseSource::kImf1});
   }
   return courses;
 }

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "core/joint/explained_share.hpp"
 #include "core/joint/joint_fit.hpp"
 #include "core/joint/kalman_bank.hpp"
+#include "core/joint/quietest_axis.hpp"
 #include "core/joint/shared_motion.hpp"
 
 namespace gyrod::stream {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/joint/explained_share.hpp"
+#include "core/joint/quietest_axis.hpp"
 #include "stream/method.hpp"
 
 namespace gyrod::stream {

@@ -77,6 +77,7 @@ StandstillNoise::StandstillNoise(StandstillOptions options)
     allan_.restore(options_.remembered->curves);
   revision_ = learner_.revision();
   rest_seconds_ = learner_.rest_seconds();
+  if (!options_.calibrated && options_.use_learned) hidden_.emplace(rate_hz_ > 0.0 ? rate_hz_ : kAnyRateHz);
 }
 
 void StandstillNoise::step(const Sample& sample, bool measured, double sample_rate_hz) noexcept {
@@ -88,6 +89,19 @@ void StandstillNoise::step(const Sample& sample, bool measured, double sample_ra
   else
     allan_.interrupt();
   if (learner_.step(sample.rate_radps, force_at(sample, measured), measured)) end_block();
+  if (hidden_) listen_in_motion(sample, measured);
+}
+
+bool StandstillNoise::learned_at_rest() const noexcept {
+  return std::ranges::any_of(learner_.models(), core::is_usable);
+}
+
+/// As long as nothing better is known.
+void StandstillNoise::listen_in_motion(const Sample& sample, bool measured) noexcept {
+  if (learned_at_rest())
+    hidden_->interrupt();
+  else
+    hidden_->step(sample.rate_radps, measured);
 }
 
 /// Nothing where the accelerometer has failed, or has none to give, for more than a moment.
@@ -148,6 +162,7 @@ void StandstillNoise::take_rate(double sample_rate_hz) noexcept {
   agreeing_ = 0;
   rate_changed_ = true;
   learner_.retime(sample_rate_hz);
+  if (hidden_) hidden_->retime(sample_rate_hz);
   allan_.clear();
   rest_seconds_ = 0.0;
 }
@@ -156,18 +171,23 @@ std::optional<ChannelNoise> StandstillNoise::update() noexcept {
   const bool learned = learner_.revision() != revision_;
   revision_ = learner_.revision();
   if (learned && options_.on_learned) options_.on_learned({learner_.state(), allan_.curves()});
-  if (std::exchange(rate_changed_, false) || learned) return known();
+  const std::uint64_t heard = hidden_ ? hidden_->revision() : 0;
+  const bool hidden_changed = std::exchange(hidden_revision_, heard) != heard && !learned_at_rest();
+  if (std::exchange(rate_changed_, false) || learned || hidden_changed) return known();
   return std::nullopt;
 }
 
 ChannelNoise StandstillNoise::known() const noexcept {
   if (options_.calibrated) return calibrated_noise(*options_.calibrated, rate_hz_);
   if (!options_.use_learned) return {};
-  return channel_noise(NoiseSource::kStandstill, learner_.models());
+  const bool at_rest = !hidden_ || learned_at_rest();
+  return at_rest ? channel_noise(NoiseSource::kStandstill, learner_.models())
+                 : channel_noise(NoiseSource::kImf1, hidden_->models());
 }
 
 void StandstillNoise::reset_segment() noexcept {
   learner_.interrupt();
+  if (hidden_) hidden_->interrupt();
   allan_.interrupt();
   held_ = kMostHeldForces + 1;
 }

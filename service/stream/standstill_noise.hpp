@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/noise/hidden_noise_learner.hpp"
 #include "core/noise/standstill_learner.hpp"
 #include "stream/noise_learner.hpp"
 #include "stream/rest_allan.hpp"
@@ -35,7 +36,7 @@ struct StandstillOptions {
   double sample_rate_hz = 0.0;  ///< configured; 0: found from the stamps
   /// In use instead of anything learned.
   std::optional<CalibratedNoise> calibrated = {};
-  /// Whether what is learned is in use where nothing is calibrated. It is learned in any case.
+  /// Whether what is learned is in use where nothing is calibrated. At rest it is learned in any case.
   bool use_learned = true;
   /// Of an earlier run.
   std::optional<RememberedNoise> remembered = {};
@@ -58,8 +59,8 @@ struct StandstillOptions {
 /// for kAgreeing samples in a row; then it is theirs: a calibration goes through core::at_rate(), and learning begins anew.
 /// Bridged positions are gaps to the learner where they are more than 2 % of a block's samples: what is interpolated has less noise. Of an
 /// accelerometer that fails for a few samples the last value holds; where it fails for longer, rest is judged without it until it has been back
-/// for kForcesAgain samples. Beside
-/// the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew where the learner does.
+/// for kForcesAgain samples. While nothing else is known, noise behind a sensor's own low-pass is learned in motion (core::HiddenNoiseLearner), is in use with the
+/// source kImf1, and is not kept: what is learned at rest takes its place. Beside the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew where the learner does.
 class StandstillNoise final : public NoiseLearner {
  public:
   static constexpr std::size_t kAgreeing = 256;
@@ -84,6 +85,8 @@ class StandstillNoise final : public NoiseLearner {
   void end_block() noexcept;
   void follow_rate(double sample_rate_hz) noexcept;
   void take_rate(double sample_rate_hz) noexcept;
+  [[nodiscard]] bool learned_at_rest() const noexcept;
+  void listen_in_motion(const Sample& sample, bool measured) noexcept;
   [[nodiscard]] ChannelNoise known() const noexcept;
 
   StandstillOptions options_;
@@ -95,7 +98,9 @@ class StandstillNoise final : public NoiseLearner {
   std::size_t held_ = kMostHeldForces + 1;  ///< samples since then
   std::size_t doubted_ = 0;                 ///< samples until the accelerometer counts again
   core::StandstillLearner learner_;
-  std::uint64_t revision_ = 0;  ///< of the learner, that was told
+  std::uint64_t revision_ = 0;                      ///< of the learner, that was told
+  std::optional<core::HiddenNoiseLearner> hidden_;  ///< where nothing is calibrated
+  std::uint64_t hidden_revision_ = 0;
   RestAllan allan_;
   double rest_seconds_ = 0.0;  ///< of the learner, at the last block
   RestEvidence evidence_;

@@ -18,7 +18,7 @@ const gyrodFacts = (() => {
 
   const kSources = {
     none: "nothing: judged by each window",
-    imf1: "the window's first mode",
+    imf1: "the signal itself",
     standstill: "learned at rest",
     calibrated: "a calibration",
   };

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "core/joint/explained_share.hpp"
 #include "core/joint/joint_options.hpp"
 #include "core/joint/knock_bridge.hpp"
 #include "core/joint/noise_shape.hpp"
 #include "core/joint/recency_tapers.hpp"
+#include "core/signal/cross_power.hpp"
 
 namespace gyrod::core {
 

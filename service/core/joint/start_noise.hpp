@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/joint/explained_share.hpp"
+#include "core/joint/quietest_axis.hpp"
 
 namespace gyrod::core {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/noise/noise_fit.hpp"
+#include "core/noise/axis_bands.hpp"
 #include "core/signal/periodogram.hpp"
 
 namespace gyrod::core {
@@ -19,8 +19,7 @@ namespace gyrod::core {
 ///   alike:   so on all axes: each is that of the middle one of three, but for a line of its own in two bands.
 /// Roads, hands and engines have other shapes: each axis its own, with humps, or without a flat part.
 ///
-/// Bands are a quarter wide, of spectra of half overlapping segments of kNoiseSegment samples: the last five to eight, and four to eight
-/// seconds of them at least. What they say is kept for four segments that say nothing.
+/// By AxisBands of the last five to eight segments, and four to eight seconds of them at least. What they say is kept for four segments that say nothing.
 /// About 14 kB; nothing allocates after construction. One thread at a time.
 class OwnLowPass {
  public:
@@ -40,45 +39,20 @@ class OwnLowPass {
   [[nodiscard]] double slow() const noexcept { return shape_.slow; }
 
  private:
-  static constexpr std::size_t kMostBands = 24;
-  using Bands = std::array<double, kMostBands>;
-  using Axes = std::array<Bands, 3>;
-
   struct Shape {
     double independent = 1.0;
     double slow = 1.0;
   };
   /// Sums over so many segments, of mean densities in the bands.
   struct Spectra {
-    Axes axes{};
+    AxisBands::Axes axes{};
     double count = 0.0;
-  };
-  /// Of the axes that are alive, the first `alive` of `axes`, each to the scale of the middle one.
-  struct Likeness {
-    Axes axes{};
-    Bands middle{};
-    std::size_t alive = 0;
-    double count = 0.0;    ///< segments
-    double spectra = 0.0;  ///< that the middle one is as good as the mean of
   };
 
   void end_segment(Periodogram& periodogram) noexcept;
   void judge() noexcept;
-  [[nodiscard]] Likeness compare() const noexcept;
-  void find_middle(Likeness& likeness) const noexcept;
-  void scale_to_middle(Bands& axis, const Bands& middle) const noexcept;
-  [[nodiscard]] Shape shape_of(const Bands& middle) const noexcept;
-  [[nodiscard]] std::size_t flat_bands(const Likeness& likeness) const noexcept;
-  [[nodiscard]] bool falls(const Likeness& likeness, std::size_t flat) const noexcept;
-  [[nodiscard]] bool alike(const Likeness& likeness, double flat_density) const noexcept;
-  [[nodiscard]] double bins(std::size_t band) const noexcept {
-    return static_cast<double>(edges_[band + 1] - edges_[band]);
-  }
-  [[nodiscard]] double mean_density(const Bands& bands, std::size_t count) const noexcept;
-  [[nodiscard]] double chance(std::size_t band, double spectra) const noexcept;
 
-  std::array<std::size_t, kMostBands + 1> edges_{};
-  std::size_t bands_ = 0;
+  AxisBands bands_;
   std::array<std::vector<double>, 3> segment_;
   std::size_t in_segment_ = 0;
   double enough_ = 0.0;  ///< segments of a half

@@ -10,6 +10,12 @@ namespace gyrod::core {
 inline constexpr double kSameLevel = 1.5;
 /// Largest distance of means of one bias, rad/s: 1 deg/s.
 inline constexpr double kSameBias = std::numbers::pi / 180.0;
+/// How much of what was learned is remembered, s: ten minutes.
+inline constexpr double kNoiseMemorySeconds = 600.0;
+/// A level above the learned one is believed where it lasts so long, s, with nothing as quiet as that in between.
+inline constexpr double kOutvotedLevelSeconds = 1800.0;
+/// Models are made anew where so much more of what they are made of has been learned.
+inline constexpr double kRefit = 0.1;
 /// Largest distance of sample rates, in parts of one of them: clocks and stamps are no better.
 inline constexpr double kSameSampleRate = 0.02;
 

@@ -10,12 +10,8 @@
 namespace gyrod::core {
 namespace {
 
-constexpr double kOutvotedLevelSeconds = 1800.0;
-constexpr double kMemorySeconds = 600.0;
 constexpr double kLeastSegments = 5.0;
 constexpr double kFewestSeconds = 10.0;
-/// Of what is learned; so much more and the models are made anew.
-constexpr double kRefit = 0.1;
 
 /// Moves a mean of `weight` towards a value of weight `added`.
 void blend(Triple& mean, double weight, const Triple& value, double added) noexcept {
@@ -45,7 +41,7 @@ void StandstillLearner::retime(double sample_rate_hz) noexcept {
   detector_.retime(sample_rate_hz);
   segment_seconds_ = 0.5 * static_cast<double>(kNoiseSegment) / sample_rate_hz;
   least_segments_ = std::max(kLeastSegments, kFewestSeconds / segment_seconds_);
-  most_segments_ = std::max(2.0 * kLeastSegments, kMemorySeconds / segment_seconds_);
+  most_segments_ = std::max(2.0 * kLeastSegments, kNoiseMemorySeconds / segment_seconds_);
   at_rest_ = false;
   forget();
   state_ = {};
@@ -147,7 +143,7 @@ void StandstillLearner::learn() noexcept {
 }
 
 void StandstillLearner::learn_bias() noexcept {
-  const double weight = std::min(state_.bias_seconds, kMemorySeconds - block_seconds_);
+  const double weight = std::min(state_.bias_seconds, kNoiseMemorySeconds - block_seconds_);
   for (std::size_t axis = 0; axis < has_bias_.size(); ++axis) {
     if (has_bias_[axis] || !(detector_.variance()[axis] > 0.0)) continue;
     state_.bias[axis] = detector_.mean()[axis];
@@ -186,7 +182,7 @@ bool StandstillLearner::restore(const StandstillState& state) noexcept {
   state_ = state;
   state_.sample_rate_hz = rate;
   state_.segments = std::min(state.segments, most_segments_);
-  state_.bias_seconds = std::min(state.bias_seconds, kMemorySeconds);
+  state_.bias_seconds = std::min(state.bias_seconds, kNoiseMemorySeconds);
   for (std::size_t axis = 0; axis < power_.size(); ++axis) {
     const bool dead = is_dead(state_.models[axis]);
     for (std::size_t k = 0; k < kNoiseBins; ++k) {

@@ -28,6 +28,8 @@ class Periodogram {
   /// @return (1/N) sum of (x_n - line_n)^2, unit^2, without the taper
   /// @pre x.size() == samples(), power.size() == bins(), x finite
   double transform(std::span<const double> x, std::span<double> power) noexcept;
+  /// What the last P_k are the squares of, k = 0..N/2. Valid until the next transform().
+  [[nodiscard]] std::span<const std::complex<double>> spectrum() const noexcept { return spectrum_; }
 
  private:
   std::vector<double> taper_;

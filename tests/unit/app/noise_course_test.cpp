@@ -10,7 +10,9 @@
 
 #include "app/angle_units.hpp"
 #include "app/evaluated_methods.hpp"
+#include "app/evaluation_noise.hpp"
 #include "app/record_denoiser.hpp"
+#include "support/low_passed.hpp"
 #include "support/signals.hpp"
 
 namespace gyrod {
@@ -53,7 +55,7 @@ TEST(NoiseCourse, HoldsFromItsSampleUntilTheNext) {
 TEST(LearnedAtRest, IsTheNoiseOfEachAxis) {
   const Signal x = times(white_noise(kRest, 1), 0.1);
   const Signal z = times(white_noise(kRest, 3), 0.3);
-  const auto courses = app::learned_at_rest({x, {}, z}, kCourseRateHz);
+  const auto courses = app::learned_from({x, {}, z}, kCourseRateHz);
   EXPECT_GT(first_known(courses[0]), 1000U);
   EXPECT_LT(first_known(courses[0]), 2500U);
   EXPECT_NEAR(core::noise_variance(courses[0].back().model), 1.04 * 0.01, 0.0008);
@@ -65,8 +67,8 @@ TEST(LearnedAtRest, IsTheNoiseOfEachAxis) {
 TEST(LearnedAtRest, IsNothingWhereAnotherAxisMoves) {
   const Signal still = times(white_noise(kRest, 1), 0.1);
   const Signal moved = sum(still, tone(kRest, 0.003), 2.0);
-  EXPECT_LT(first_known(app::learned_at_rest({still, still, {}}, kCourseRateHz)[0]), kNever);
-  EXPECT_EQ(first_known(app::learned_at_rest({still, moved, {}}, kCourseRateHz)[0]), kNever);
+  EXPECT_LT(first_known(app::learned_from({still, still, {}}, kCourseRateHz)[0]), kNever);
+  EXPECT_EQ(first_known(app::learned_from({still, moved, {}}, kCourseRateHz)[0]), kNever);
 }
 
 /// What `gyrod denoise` makes of x, rad/s.
@@ -98,7 +100,7 @@ double worst_difference(const Signal& published_radps, const char* name, const a
 TEST(LearnedAtRest, IsUsedFromTheSameSampleOnAsTheDaemonDoes) {
   const settings::Settings settings;
   const std::array<Signal, 3> rates = {rest_then_swing(1), rest_then_swing(2), rest_then_swing(3)};
-  const auto courses = app::learned_at_rest({rates[0], rates[1], rates[2]}, kCourseRateHz);
+  const auto courses = app::learned_from({rates[0], rates[1], rates[2]}, kCourseRateHz);
   const auto sensor = std::make_shared<app::SensorAxes>(app::SensorAxes{rates, courses});
   app::MethodContext learned{settings, kCourseRateHz, courses[0]};
   learned.sensor = sensor;
@@ -108,6 +110,20 @@ TEST(LearnedAtRest, IsUsedFromTheSameSampleOnAsTheDaemonDoes) {
   EXPECT_LT(worst_difference(denoised, "joint", learned, rates[0]), 1e-5);
   EXPECT_LT(worst_difference(realtime, "realtime", learned, rates[0]), 1e-5);
   EXPECT_GT(worst_difference(denoised, "joint", guessing, rates[0]), 0.05);
+}
+
+TEST(LearnedInMotion, IsToldFromWhatRestTeaches) {
+  const auto measured = low_passed_motion(12'000, 1).measured;
+  const auto courses = app::learned_from({measured[0], measured[1], measured[2]}, kLowPassedHz);
+  app::RowNoise moved;
+  app::add_learned(courses[0], moved);
+  EXPECT_EQ(moved.by, app::NoiseKnownBy::kMotion);
+  EXPECT_EQ(moved.from_sample, first_known(courses[0]));
+  EXPECT_NEAR(static_cast<double>(first_known(courses[0])), 18.6 * kLowPassedHz, 0.1 * kLowPassedHz);
+  const Signal rates = rest_then_swing(1);
+  app::RowNoise rested;
+  app::add_learned(app::learned_from({rates, rates, rates}, kCourseRateHz)[0], rested);
+  EXPECT_EQ(rested.by, app::NoiseKnownBy::kRest);
 }
 
 TEST(LearnedAtRest, IsWhatARunShowsItselfWhereItLearnsItself) {

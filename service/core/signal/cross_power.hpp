@@ -1,4 +1,4 @@
-/// What of an axis the sensor's other axes explain.
+/// What of one series others explain.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,6 @@ namespace gyrod::core {
 
 /// Axes of a sensor.
 inline constexpr std::size_t kSensorAxes = 3;
-
-/// The axes of a gyro have noise of a size: an axis that seems to have more than this, in variance, than the quietest, shakes. At rest
-/// they differ by 1.5 (ADIS16405) to 2.2 (MPU6050).
-inline constexpr double kMostOfQuietest = 2.0;
-
-/// Least variance above 0 of the noise of the axes but this one; 0 where there is none.
-[[nodiscard]] inline double least_of_others(const std::array<double, kSensorAxes>& variance,
-                                            std::size_t axis) noexcept {
-  double least = 0.0;
-  for (std::size_t other = 0; other < kSensorAxes; ++other) {
-    if (other == axis || !(variance[other] > 0.0)) continue;
-    least = least > 0.0 ? std::min(least, variance[other]) : variance[other];
-  }
-  return least;
-}
 
 /// Sums of products of three series.
 struct CrossPower {
