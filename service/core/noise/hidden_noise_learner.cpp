@@ -16,6 +16,8 @@ constexpr std::size_t kMostUnmeasured = kNoiseSegment / 50;
 /// Samples that an axis may repeat: one that hangs is no quiet one.
 constexpr std::size_t kMostRepeats = 64;
 constexpr double kHalvesToLearn = 4.0;
+/// Hands and steering are slower.
+constexpr double kMotionHz = 10.0;
 
 constexpr AxisBands::Axes nothing_seen() {
   AxisBands::Axes axes{};
@@ -37,6 +39,7 @@ void HiddenNoiseLearner::retime(double sample_rate_hz) noexcept {
   const double segment_seconds = static_cast<double>(kSegmentHop) / sample_rate_hz;
   half_segments_ = segments_of_half(sample_rate_hz);
   half_seconds_ = half_segments_ * segment_seconds;
+  motion_bins_ = kMotionHz * static_cast<double>(kNoiseSegment) / sample_rate_hz;
   least_segments_ = kHalvesToLearn * half_segments_;
   most_segments_ = std::max(least_segments_, kNoiseMemorySeconds / segment_seconds);
   least_ = least_before_ = kNothingSeen;
@@ -99,7 +102,7 @@ void HiddenNoiseLearner::end_half() noexcept {
   bool learned = false;
   if (last_half_.bands.count > 0.0) {
     watch_least();
-    const auto found = find_noise_alone(bands_, last_half_.bands, this_half_.bands, least());
+    const auto found = find_noise_alone(bands_, last_half_.bands, this_half_.bands, least(), motion_bins_);
     learned = found && believes(*found);
     if (learned) {
       if (!last_counted_) learn(last_half_, found->first);

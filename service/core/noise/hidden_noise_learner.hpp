@@ -16,7 +16,7 @@
 
 namespace gyrod::core {
 
-/// Averages the spectra of what find_noise_alone() finds in two halves of four segments and four seconds at least, each band with the weight of ten minutes at most. Where
+/// Averages the spectra of what find_noise_alone() finds in two halves of four segments and four seconds at least, flat up to 10 Hz and more, each band with the weight of ten minutes at most. Where
 /// one is 1.5 times as loud as what has been learned it is left out; where one is as much quieter, learning begins anew, for motion only adds; so it does where half an hour of
 /// them was louder.
 /// From 16 segments and 16 seconds on, and again whenever a tenth has been added, fit_noise_and_lines() makes models of
@@ -70,6 +70,7 @@ class HiddenNoiseLearner {
   double half_seconds_ = 0.0;
   double half_segments_ = 0.0;
   double least_segments_ = 0.0;  ///< to learn from
+  double motion_bins_ = 0.0;
   double most_segments_ = 0.0;
   AxisBands bands_;
   Periodogram periodogram_;

@@ -12,8 +12,12 @@ namespace gyrod::core {
 namespace {
 
 constexpr std::size_t kFewestBands = 3;
-/// Of the first band's density the third has more: motion falls off faster.
-constexpr double kNotSteep = 0.4;
+/// At so many times the frequency there is at least so much of the first band's density: motion falls off faster.
+constexpr double kFaster = 1.5;
+constexpr double kNotSteep = 0.3;
+/// Of the band before the last has less, or there is next to nothing left of the flat part: no floor, as of white noise, under motion that falls off.
+constexpr double kFallsOn = 0.75;
+constexpr double kNextToNothing = 0.02;
 /// Wider noise ends in a floor.
 constexpr double kNarrowEnough = 0.7;
 /// Ratio of two axes: at rest they differ by 1.5 (ADIS16405) to 2.2 (MPU6050).
@@ -87,17 +91,31 @@ bool is_own(const AxisBands& bands, const NoiseAlone& found, const AxisDensities
   return own >= kOwn * all;
 }
 
-bool has_shape(const AxisBands& bands, const NoiseAlone& found, std::size_t flat_end) noexcept {
+bool falls_to_the_end(const AxisBands& bands, const NoiseAlone& found) noexcept {
   const AxisBands::Bands& middle = found.likeness.middle;
-  return middle[found.first + kFewestBands - 1] > kNotSteep * middle[found.first] &&
-         bands.falls(found.likeness, flat_end) && bands.alike(found.likeness, found.flat_density) &&
+  const double last = middle[bands.size() - 1];
+  return last < kFallsOn * middle[bands.size() - 2] || last < kNextToNothing * found.flat_density;
+}
+
+bool begins_flat(const AxisBands& bands, const NoiseAlone& found) noexcept {
+  std::size_t faster = found.first;
+  while (faster + 1 < bands.size() &&
+         static_cast<double>(bands.edge(faster)) < kFaster * static_cast<double>(bands.edge(found.first)))
+    ++faster;
+  return found.likeness.middle[faster] > kNotSteep * found.likeness.middle[found.first];
+}
+
+bool has_shape(const AxisBands& bands, const NoiseAlone& found, std::size_t flat_end) noexcept {
+  return begins_flat(bands, found) && bands.falls(found.likeness, flat_end) &&
+         falls_to_the_end(bands, found) && bands.alike(found.likeness, found.flat_density) &&
          bands.bandwidth(found.likeness, found.flat_density) <= kNarrowEnough;
 }
 
 }  // namespace
 
 std::optional<NoiseAlone> find_noise_alone(const AxisBands& bands, const AxisDensities& before,
-                                           const AxisDensities& now, const AxisBands::Axes& least) noexcept {
+                                           const AxisDensities& now, const AxisBands::Axes& least,
+                                           double motion_bins) noexcept {
   NoiseAlone found;
   const double count = before.count + now.count;
   for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
@@ -112,8 +130,9 @@ std::optional<NoiseAlone> find_noise_alone(const AxisBands& bands, const AxisDen
     found.flat_density = bands.mean_density(found.likeness.middle, found.first, flat_end);
     // Where this one is too low for the last to be a tenth of, faster ones are, too.
     if (!bands.ends_low(found.likeness, found.flat_density)) break;
-    if (has_shape(bands, found, flat_end) && of_a_size(bands, found) && is_least(bands, found, least) &&
-        is_steady(bands, found, before, now) && is_own(bands, found, before, now))
+    if (static_cast<double>(bands.edge(flat_end)) >= motion_bins && has_shape(bands, found, flat_end) &&
+        of_a_size(bands, found) && is_least(bands, found, least) && is_steady(bands, found, before, now) &&
+        is_own(bands, found, before, now))
       return found;
   }
   return std::nullopt;

@@ -39,8 +39,8 @@ AxisBands::Axes nothing_seen() {
 }
 
 std::optional<NoiseAlone> found(const AxisDensities& before, const AxisDensities& now,
-                                const AxisBands::Axes& least = nothing_seen()) {
-  return find_noise_alone(AxisBands(), before, now, least);
+                                const AxisBands::Axes& least = nothing_seen(), double motion_bins = 10.0) {
+  return find_noise_alone(AxisBands(), before, now, least, motion_bins);
 }
 
 std::optional<NoiseAlone> found(const AxisDensities& both) { return found(both, both); }
@@ -74,18 +74,26 @@ TEST(NoiseAlone, BeginsWhereMotionEnds) {
 TEST(NoiseAlone, EndsInNoFloor) {
   EXPECT_FALSE(found(densities([](double) { return 1.0; })));
   EXPECT_FALSE(found(densities([](double bin) { return second_order(bin) + 0.12; })));
-  EXPECT_TRUE(found(densities([](double bin) { return second_order(bin) + 0.05; })));
+  EXPECT_TRUE(found(densities([](double bin) { return second_order(bin) + 0.015; })));
+  EXPECT_FALSE(found(densities([](double bin) { return second_order(bin) + 0.05; })))
+      << "as white noise under motion that falls off";
 }
 
 TEST(NoiseAlone, IsNarrow) {
-  const auto steep = [](double edge) { return [edge](double bin) { return bin < edge ? 1.0 : 0.05; }; };
+  const auto steep = [](double edge) { return [edge](double bin) { return bin < edge ? 1.0 : 0.01; }; };
   EXPECT_TRUE(found(densities(steep(150.0)))) << "to bin 140: 0.58 of the bins";
-  EXPECT_FALSE(found(densities(steep(170.0)))) << "to bin 175: 0.71";
+  EXPECT_FALSE(found(densities(steep(200.0)))) << "to bin 218: 0.85";
 }
 
 TEST(NoiseAlone, IsFlatWhereItBegins) {
   EXPECT_FALSE(found(densities([](double bin) { return std::pow(bin, -3.0); })));
   EXPECT_FALSE(found(densities([](double bin) { return std::exp(-bin / 3.0); })));
+}
+
+TEST(NoiseAlone, IsFlatBeyondMotion) {
+  const AxisDensities noise = densities(second_order);  // to bin 39
+  EXPECT_TRUE(found(noise, noise, nothing_seen(), 38.0));
+  EXPECT_FALSE(found(noise, noise, nothing_seen(), 60.0));
 }
 
 TEST(NoiseAlone, HasNoHump) {
