@@ -4,8 +4,8 @@
 //
 // Motion of two cars' reference gyros, of a car's roof, and of hand-held sensors, resampled by lines, 90 s at most, and on the three axes the noise of imu1 x, imu1 y and
 // imu4 x at rest, sample by sample, all behind a low-pass of second order. A line each: sample rate, low-pass (0: none), motion, scale of the noise; when it was
-// learned, s, and its variance in parts of the true one on x, y, z. With `errors` behind it, of the rows where something was learned and a
-// tenth of the others: the errors of gyro/denoised in the last 60 %, rms deg/s, of the raw rates, without what was learned, with it, and
+// learned, s, and its variance in parts of the true one on x, y, z. With `errors` behind it, of these rows, once that has been in use for 5 s and in
+// the last 60 % at most: the errors of gyro/denoised, rms deg/s, of the raw rates, without what was learned, with it, and
 // calibrated at rest elsewhere; and the mean of error^2 over the published variance of the last three. On each axis. Of all sensors, or of one by its
 // sample rate and low-pass, Hz.
 #include <algorithm>
@@ -32,6 +32,7 @@ using Axes = std::array<std::vector<double>, 3>;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kMostSeconds = 90.0;
 constexpr double kJudgedFrom = 0.4;
+constexpr double kSettling_s = 5.0;
 
 struct Recording {
   std::string name;
@@ -120,7 +121,8 @@ class Row {
     std::printf("%4.0f %3.0f %-7s x%-3g |", rate_hz, low_pass_hz, recording.name.c_str(), scale);
   }
 
-  bool learn() const {
+  /// @return first sample behind which it is known; 0 where it never is
+  std::size_t learn() const {
     core::HiddenNoiseLearner learner(rate_hz_);
     std::size_t known = 0;
     for (std::size_t n = 0; n < truth_[0].size(); ++n) {
@@ -129,18 +131,21 @@ class Row {
     }
     if (known == 0) {
       std::printf(" nothing learned\n");
-      return false;
+      return 0;
     }
     std::printf(" %5.1f s", static_cast<double>(known) / rate_hz_);
     if (!core::is_usable(learner.models()[0])) std::printf(", forgotten since");
     for (std::size_t axis = 0; axis < 3; ++axis)
       std::printf(" %5.2f", core::noise_variance(learner.models()[axis]) / mean_square(noise_[axis]));
     std::printf("\n");
-    return true;
+    return known;
   }
 
-  void print_errors() const {
-    const auto begin = static_cast<std::size_t>(kJudgedFrom * static_cast<double>(truth_[0].size()));
+  void print_errors(std::size_t known) const {
+    const auto size = static_cast<double>(truth_[0].size());
+    const auto begin = std::max(known + static_cast<std::size_t>(kSettling_s * rate_hz_),
+                                static_cast<std::size_t>(kJudgedFrom * size));
+    if (begin + known / 10 > truth_[0].size()) return;
     std::printf("    raw       ");
     for (const auto& axis : noise_)
       std::printf(" %6.3f", std::sqrt(mean_square(std::span(axis).subspan(begin))));
@@ -199,7 +204,6 @@ class Row {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr std::size_t kEveryTenth = 10;
   const bool errors = argc > 1 && std::string(argv[1]) == "errors";
   const int one = errors ? 2 : 1;
   const auto wanted = [&](double rate_hz, double low_pass_hz) {
@@ -219,15 +223,14 @@ int main(int argc, char** argv) {
                                                               {200, 0},
                                                               {100, 0},
                                                               {50, 0}}};
-  std::size_t unknown = 0;
   for (const auto& [rate_hz, low_pass_hz] : sensors) {
     if (!wanted(rate_hz, low_pass_hz)) continue;
     for (const Recording& recording : kRecordings) {
       for (const double scale : {0.3, 1.0, 3.0}) {
         const Row row(recording, rate_hz, low_pass_hz, scale);
-        const bool learned = row.learn();
+        const std::size_t known = row.learn();
         std::fflush(stdout);
-        if (errors && (learned || ++unknown % kEveryTenth == 0)) row.print_errors();
+        if (errors && known > 0) row.print_errors(known);
       }
     }
   }

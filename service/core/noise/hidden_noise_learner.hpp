@@ -16,23 +16,24 @@
 
 namespace gyrod::core {
 
-/// Averages the spectra of what find_noise_alone() finds in two halves of four segments and four seconds at least, flat up to 10 Hz and more, each band with the weight of ten minutes at most. Where
-/// one is 1.5 times as loud as what has been learned it is left out; where one is as much quieter, learning begins anew, for motion only adds; so it does where half an hour of
-/// them was louder.
-/// From 16 segments and 16 seconds on, and again whenever a tenth has been added, fit_noise_and_lines() makes models of
-///   the shape:  band by band the quietest of the axes, and those that are louder by chance, each to the scale of the others, as a low-pass is the same for all of them; before the slowest band that was learned as
-///            dense as those after it that are alike, which is less than it is rather than more. An axis's own lines are not learned;
+/// Averages the spectra of what find_noise_alone() finds in two halves of four segments and four seconds at least, flat up to 10 Hz or more, each
+/// band with the weight of ten minutes at most. What is 1.5 times as loud as what has been learned is left out; where it is as much quieter, learning
+/// begins anew, as motion only adds; and so it does where half an hour of it was louder. From four halves on, and again whenever a tenth has been added,
+/// fit_noise_and_lines() makes models of
+///   the shape:  band by band that of the quietest axis, and of those that are louder by chance, each to the scale of the others, as a low-pass is one for
+///            all of them; before the slowest band that was learned as dense as those after it that are alike. An axis's own lines are not learned;
 ///   the scale:  of each axis where the low-pass falls off, as motion is slower than that.
-/// A function of samples and sample rate alone. About 75 kB; nothing allocates after construction. One thread at a time.
+/// A function of samples and sample rate alone. About 70 kB; nothing allocates after construction. One thread at a time.
 /// Source: docs/joint.md, "Noise that a low-pass hides".
 class HiddenNoiseLearner {
  public:
   /// @pre sample_rate_hz > 0
   explicit HiddenNoiseLearner(double sample_rate_hz);
 
-  /// One sample, finite. Costs three transforms every 256 samples, and 0.1 ms for a model.
+  /// One sample, finite. Costs three transforms every 256 samples, and 0.3 ms where models are made.
   /// @param rate rad/s
-  /// @param measured false where it lies on the line between its neighbours: more than two such in a hundred, or of an axis that hangs, and a segment tells nothing
+  /// @param measured false where it lies on the line between its neighbours: more than two such in a hundred, or of an axis that hangs, and a
+  /// segment tells nothing
   void step(const Triple& rate, bool measured = true) noexcept;
   /// A gap in the samples. What is learned stays.
   void interrupt() noexcept;

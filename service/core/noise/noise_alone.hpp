@@ -28,18 +28,18 @@ struct NoiseAlone {
   }
 };
 
-/// Behind a low-pass a spectrum has no floor that would tell the noise, but often a part that holds nothing else: what is faster than the motion. Sought is the slowest band
-/// from which on spectra are
-///   flat, then falling:  no band rises by more than chance, at one and a half times the frequency of the first there is 0.3 of it at least; the last has less than a tenth of those that are alike, and less than 0.75 of
-///            the one before or a fiftieth of these. Noise of
-///            that density at all slower bands would have a statistical bandwidth (AxisBands::bandwidth()) of at most 0.7;
+/// Behind a low-pass a spectrum has no floor that would tell the noise, but often a part that holds nothing else: what is faster than the motion. Sought
+/// is the slowest band from which on spectra are
+///   flat, then falling:  no band rises by more than chance; at one and a half times the frequency of the first there is 0.3 of it at least; what is
+///            flat reaches `motion_bins`; the last has less than a tenth of that, and less than 0.75 of the one before or a fiftieth of what is flat. Noise
+///            that is as dense at all slower bands would have a statistical bandwidth (AxisBands::bandwidth()) of at most 0.7;
 ///   alike:   the same on all axes, to a factor of 3 (AxisBands::alike());
 ///   own:     less than a tenth of each is explained by the others, as what shakes a body is seen by all of them at once;
 ///   least:   at most 1.5 times what the bands have had at their quietest, but for chance, as motion comes and goes;
 ///   steady:  in both stretches as much.
-/// Noise with a floor is none of that: its last band has more than a tenth.
+/// Noise with a floor is none of that.
 /// @param least density that each band has had in two such stretches, infinite where none was seen
-/// @param motion_bins what is flat does not end before this bin: bodies that turn smoothly have such spectra below
+/// @param motion_bins bins that motion may fill, as that of bodies which turn smoothly is so shaped
 /// @return nothing where there is none, or not all axes are alive
 /// @pre both counts are above 0
 /// Source: docs/joint.md, "Noise that a low-pass hides".

@@ -1,11 +1,16 @@
 // Noise behind a sensor's own low-pass, learned in motion until it is learned at rest.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <memory>
+#include <span>
 
 #include <gtest/gtest.h>
 
 #include "core/noise/noise_units.hpp"
 #include "core/noise/still_noise.hpp"
 #include "engine_support.hpp"
+#include "stream/joint_method.hpp"
 #include "stream/standstill_noise.hpp"
 #include "support/low_passed.hpp"
 
@@ -57,6 +62,28 @@ TEST(StandstillNoiseInMotion, IsLearnedBehindALowPassWithoutRest) {
     EXPECT_NEAR(core::noise_variance(model) / (1.04 * kVariance), 1.0, 0.15);
   EXPECT_FALSE(learner.at_rest());
   EXPECT_FALSE(told) << "it is not what is kept of rest";
+}
+
+// 18.6 s, then the noise is known.
+TEST(StandstillNoiseInMotion, GivesTheSameBitsForAnyWorkersAndAnyBatching) {
+  const auto input = moving(9000, 1);
+  const auto run = [&input](std::size_t workers, std::size_t batch) {
+    RecordingSink sink;
+    EngineOptions options = small_options(workers);
+    options.window_samples = 512;
+    options.hop_samples = 64;
+    options.learner = [](std::string_view) { return std::make_unique<StandstillNoise>(StandstillOptions{}); };
+    Engine engine(options, joint_method({}), sink);
+    const std::span<const Sample> all{input};
+    for (std::size_t n = 0; n < all.size(); n += batch)
+      engine.push("imu", all.subspan(n, std::min(batch, all.size() - n)));
+    engine.stop(std::chrono::seconds{60});
+    return sink.samples("imu");
+  };
+  const auto expected = run(0, 9000);
+  ASSERT_EQ(expected.size(), input.size());
+  EXPECT_LT(expected[7000].rate_std_radps[0], 0.3 * expected[8999].rate_std_radps[0]) << "then known";
+  EXPECT_TRUE(same_bits(run(3, 61), expected));
 }
 
 TEST(StandstillNoiseInMotion, GivesWayToWhatRestTeaches) {
