@@ -76,6 +76,7 @@ StandstillNoise::StandstillNoise(StandstillOptions options)
   if (options_.remembered && learner_.restore(*options_.remembered))
     allan_.restore(options_.remembered->curves);
   revision_ = learner_.revision();
+  learned_at_rest_ = std::ranges::any_of(learner_.models(), core::is_usable);
   rest_seconds_ = learner_.rest_seconds();
   if (!options_.calibrated && options_.use_learned) hidden_.emplace(rate_hz_ > 0.0 ? rate_hz_ : kAnyRateHz);
 }
@@ -92,16 +93,13 @@ void StandstillNoise::step(const Sample& sample, bool measured, double sample_ra
   if (hidden_) listen_in_motion(sample, measured);
 }
 
-bool StandstillNoise::learned_at_rest() const noexcept {
-  return std::ranges::any_of(learner_.models(), core::is_usable);
-}
-
 /// As long as nothing better is known.
 void StandstillNoise::listen_in_motion(const Sample& sample, bool measured) noexcept {
-  if (learned_at_rest())
-    hidden_->interrupt();
-  else
+  if (!learned_at_rest_)
     hidden_->step(sample.rate_radps, measured);
+  else if (listening_)
+    hidden_->interrupt();
+  listening_ = !learned_at_rest_;
 }
 
 /// Nothing where the accelerometer has failed, or has none to give, for more than a moment.
@@ -170,9 +168,10 @@ void StandstillNoise::take_rate(double sample_rate_hz) noexcept {
 std::optional<ChannelNoise> StandstillNoise::update() noexcept {
   const bool learned = learner_.revision() != revision_;
   revision_ = learner_.revision();
+  if (learned) learned_at_rest_ = std::ranges::any_of(learner_.models(), core::is_usable);
   if (learned && options_.on_learned) options_.on_learned({learner_.state(), allan_.curves()});
   const std::uint64_t heard = hidden_ ? hidden_->revision() : 0;
-  const bool hidden_changed = std::exchange(hidden_revision_, heard) != heard && !learned_at_rest();
+  const bool hidden_changed = std::exchange(hidden_revision_, heard) != heard && !learned_at_rest_;
   if (std::exchange(rate_changed_, false) || learned || hidden_changed) return known();
   return std::nullopt;
 }
@@ -180,7 +179,7 @@ std::optional<ChannelNoise> StandstillNoise::update() noexcept {
 ChannelNoise StandstillNoise::known() const noexcept {
   if (options_.calibrated) return calibrated_noise(*options_.calibrated, rate_hz_);
   if (!options_.use_learned) return {};
-  const bool at_rest = !hidden_ || learned_at_rest();
+  const bool at_rest = !hidden_ || learned_at_rest_;
   return at_rest ? channel_noise(NoiseSource::kStandstill, learner_.models())
                  : channel_noise(NoiseSource::kImf1, hidden_->models());
 }

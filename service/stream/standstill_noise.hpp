@@ -59,8 +59,9 @@ struct StandstillOptions {
 /// for kAgreeing samples in a row; then it is theirs: a calibration goes through core::at_rate(), and learning begins anew.
 /// Bridged positions are gaps to the learner where they are more than 2 % of a block's samples: what is interpolated has less noise. Of an
 /// accelerometer that fails for a few samples the last value holds; where it fails for longer, rest is judged without it until it has been back
-/// for kForcesAgain samples. While nothing else is known, noise behind a sensor's own low-pass is learned in motion (core::HiddenNoiseLearner), is in use with the
-/// source kImf1, and is not kept: what is learned at rest takes its place. Beside the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew where the learner does.
+/// for kForcesAgain samples. Beside the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew
+/// where the learner does. While nothing else is known, noise behind a sensor's own low-pass is learned in motion (core::HiddenNoiseLearner), is in use
+/// with the source kImf1, and is not kept: what is learned at rest takes its place.
 class StandstillNoise final : public NoiseLearner {
  public:
   static constexpr std::size_t kAgreeing = 256;
@@ -85,7 +86,6 @@ class StandstillNoise final : public NoiseLearner {
   void end_block() noexcept;
   void follow_rate(double sample_rate_hz) noexcept;
   void take_rate(double sample_rate_hz) noexcept;
-  [[nodiscard]] bool learned_at_rest() const noexcept;
   void listen_in_motion(const Sample& sample, bool measured) noexcept;
   [[nodiscard]] ChannelNoise known() const noexcept;
 
@@ -101,6 +101,8 @@ class StandstillNoise final : public NoiseLearner {
   std::uint64_t revision_ = 0;                      ///< of the learner, that was told
   std::optional<core::HiddenNoiseLearner> hidden_;  ///< where nothing is calibrated
   std::uint64_t hidden_revision_ = 0;
+  bool learned_at_rest_ = false;  ///< the learner has a model, as of the last update()
+  bool listening_ = false;        ///< the last sample went to hidden_
   RestAllan allan_;
   double rest_seconds_ = 0.0;  ///< of the learner, at the last block
   RestEvidence evidence_;

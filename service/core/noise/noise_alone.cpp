@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/noise/same_noise.hpp"
 #include "core/signal/portable_math.hpp"
@@ -24,9 +23,7 @@ constexpr double kNarrowEnough = 0.7;
 constexpr double kOfASize = 3.0;
 /// Ratio of the stretches in a band that chance does not explain.
 constexpr double kSteadyBand = 1.2;
-/// Standard deviations that count as chance.
-constexpr double kChanceOfBand = 4.0;
-/// The same of a band's least: that of a hundred lies so many below the mean.
+/// A band's least of a hundred lies so many standard deviations below its mean.
 constexpr double kChanceOfLeast = 2.5;
 constexpr double kOwn = 0.9;
 /// Independent values of half overlapping segments, in parts of all.
@@ -61,7 +58,7 @@ bool is_steady(const AxisBands& bands, const NoiseAlone& found, const AxisDensit
   for (std::size_t band = found.first; band < bands.size(); ++band) {
     if (!found.tells(band)) continue;
     const double spread = 1.0 / before.count + 1.0 / now.count;
-    const double most = kSteadyBand * portable_exp(kChanceOfBand * std::sqrt(spread / bands.bins(band)));
+    const double most = kSteadyBand * bands.chance(band, 1.0 / spread);
     for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
       const double ratio = now.own[axis][band] * before.count / (before.own[axis][band] * now.count);
       if (!(ratio <= most && 1.0 <= most * ratio)) return false;
