@@ -138,7 +138,7 @@ int calibrate(const CalibrateFlags& flags, Interrupt& interrupt) {
     calibration = from_data_sheet(flags);
   } else {
     NoiseCalibrationRun run = from_recording(flags, interrupt);
-    text = stretches_text(run);
+    text = stretches_text(run) + shared_lines_text(run);
     calibration = std::move(run.calibration);
   }
   output.write(settings::calibration_text(calibration));

@@ -126,21 +126,37 @@ void require_enough(const NoiseCalibrationRun& run, const files::Record& record,
   throw files::FileError(text);
 }
 
-void fit_axes(const files::Record& record, NoiseCalibrationRun& run) {
+/// What axes share is taken for the sensor's, too.
+std::array<core::StillAxis, 3> axis_by_axis(const std::vector<core::AxisSamples>& still) {
+  std::array<core::StillAxis, 3> axes;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    std::vector<Samples> alone;
+    for (const core::AxisSamples& stretch : still) alone.push_back(stretch[a]);
+    axes[a].model = core::still_noise(alone);
+  }
+  return axes;
+}
+
+/// @param whole on the user's word
+void fit_axes(const files::Record& record, bool whole, NoiseCalibrationRun& run) {
+  std::vector<core::AxisSamples> still;
+  for (const core::Stretch& stretch : run.found.stretches) {
+    core::AxisSamples& axes = still.emplace_back();
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      if (!record.gyro_radps[a].empty())
+        axes[a] = Samples(record.gyro_radps[a]).subspan(stretch.first, stretch.size);
+    }
+  }
+  run.axes = whole ? axis_by_axis(still) : core::still_noise(still);
   bool any = false;
   for (std::size_t a = 0; a < record.gyro_radps.size(); ++a) {
-    const std::vector<double>& axis = record.gyro_radps[a];
-    if (axis.empty()) continue;
-    std::vector<Samples> still;
+    if (record.gyro_radps[a].empty()) continue;
     double sum = 0.0;
-    for (const core::Stretch& stretch : run.found.stretches) {
-      still.push_back(Samples(axis).subspan(stretch.first, stretch.size));
-      sum += core::mean(still.back()) * static_cast<double>(stretch.size);
-    }
-    const auto model = core::still_noise(still);
-    if (!model) continue;
+    for (const core::AxisSamples& stretch : still)
+      sum += core::mean(stretch[a]) * static_cast<double>(stretch[a].size());
+    if (!run.axes[a].model) continue;
     any = true;
-    run.calibration.models[a] = *model;
+    run.calibration.models[a] = *run.axes[a].model;
     run.calibration.bias_radps[a] = sum / static_cast<double>(run.found.still);
   }
   if (!any) throw files::FileError(record.name + ": no axis changes; expected the noise of a sensor");
@@ -172,7 +188,7 @@ NoiseCalibrationRun calibrate_noise(const files::Record& record, const Calibrati
   calibration.origin = {.source = std::filesystem::path(record.name).filename().string(),
                         .first_stamp_s = record.first_stamp_s,
                         .still_s = static_cast<double>(run.found.still) / record.sample_rate_hz};
-  fit_axes(record, run);
+  fit_axes(record, options.all_still, run);
   return run;
 }
 
@@ -203,6 +219,36 @@ std::string calibration_table(const settings::NoiseCalibration& calibration) {
                           "xyz"[a], line.cycles * rate, std::sqrt(line.variance) * kDegPerRad,
                           100.0 * line.variance / core::noise_variance(calibration.models[a]));
     }
+  }
+  return text;
+}
+
+std::string shared_lines_text(const NoiseCalibrationRun& run) {
+  constexpr double kSameLine = 0.02;
+  struct Named {
+    double cycles;
+    std::string levels;
+  };
+  std::vector<Named> lines;
+  for (std::size_t a = 0; a < run.axes.size(); ++a) {
+    for (const core::SpectralLine& line : std::span(run.axes[a].shared).first(run.axes[a].shared_count)) {
+      const std::string level =
+          fmt::format("{} {:.4f} deg/s", "xyz"[a], std::sqrt(line.variance) * kDegPerRad);
+      const auto same = std::ranges::find_if(lines, [&line](const Named& named) {
+        return std::abs(named.cycles - line.cycles) < kSameLine * line.cycles;
+      });
+      if (same == lines.end())
+        lines.push_back({line.cycles, level});
+      else
+        same->levels += ", " + level;
+    }
+  }
+  std::string text;
+  for (const Named& line : lines) {
+    text += fmt::format(
+        "  axes share a line at {:.4g} Hz ({}): an engine or a fan, left out of the noise; --all-still takes "
+        "it for the sensor's\n",
+        line.cycles * run.calibration.sample_rate_hz, line.levels);
   }
   return text;
 }

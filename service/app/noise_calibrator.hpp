@@ -1,9 +1,11 @@
 /// From a recording to a noise calibration, and the table that says how.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 
+#include "core/noise/still_noise.hpp"
 #include "core/noise/still_search.hpp"
 #include "files/record.hpp"
 #include "settings/noise_calibration.hpp"
@@ -22,6 +24,7 @@ struct CalibrationOptions {
 struct NoiseCalibrationRun {
   settings::NoiseCalibration calibration;
   core::StillSearch found;
+  std::array<core::StillAxis, 3> axes;
   double first_s = 0.0;     ///< where the part that was looked at begins, s into the recording
   std::size_t samples = 0;  ///< of it
   bool with_accelerometer = false;
@@ -40,6 +43,9 @@ struct NoiseCalibrationRun {
 
 /// The figures of each axis in deg/s and the units of data sheets.
 [[nodiscard]] std::string calibration_table(const settings::NoiseCalibration& calibration);
+
+/// Lines that two axes share, and which are not in the models; for people. Empty where there are none.
+[[nodiscard]] std::string shared_lines_text(const NoiseCalibrationRun& run);
 
 /// What was still and what was not, for people.
 [[nodiscard]] std::string stretches_text(const NoiseCalibrationRun& run);

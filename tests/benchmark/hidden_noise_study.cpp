@@ -1,11 +1,12 @@
-// Noise behind a sensor's own low-pass, in motion: what is learned of it, and what that is worth. For docs/joint.md and docs/decisions/0012:
+// What is learned of a sensor's noise while it moves: behind a low-pass of its own, and of what passes for rest. And what that is worth. For docs/joint.md,
+// docs/measured.md and docs/decisions/0012:
 //
 //   GYROD_DATA=... hidden_noise_study [errors] [RATE LOW_PASS]
 //
 // Motion of two cars' reference gyros, of a car's roof, and of hand-held sensors, resampled by lines, 90 s at most, and on the three axes the noise of imu1 x, imu1 y and
 // imu4 x at rest, sample by sample, all behind a low-pass of second order. A line each: sample rate, low-pass (0: none), motion, scale of the noise; when it was
-// learned, s, and its variance in parts of the true one on x, y, z. With `errors` behind it, of these rows, once that has been in use for 5 s and in
-// the last 60 % at most: the errors of gyro/denoised, rms deg/s, of the raw rates, without what was learned, with it, and
+// learned, s, and its variance in parts of the true one on x, y, z; and likewise what was learned of what passed for rest, in the end, and its lines.
+// With `errors` behind it, of these rows, once either has been in use for 5 s and in the last 60 % at most: the errors of gyro/denoised, rms deg/s, of the raw rates, without what was learned, with it, and
 // calibrated at rest elsewhere; and the mean of error^2 over the published variance of the last three. On each axis. Of all sensors, or of one by its
 // sample rate and low-pass, Hz.
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "app/offline_denoiser.hpp"
 #include "core/evaluation/butterworth.hpp"
 #include "core/noise/hidden_noise_learner.hpp"
+#include "core/noise/standstill_learner.hpp"
 #include "core/noise/still_noise.hpp"
 #include "settings/noise_calibration.hpp"
 #include "support/drive_rows.hpp"
@@ -123,22 +125,22 @@ class Row {
 
   /// @return first sample behind which it is known; 0 where it never is
   std::size_t learn() const {
-    core::HiddenNoiseLearner learner(rate_hz_);
-    std::size_t known = 0;
-    for (std::size_t n = 0; n < truth_[0].size(); ++n) {
-      learner.step({measured_[0][n], measured_[1][n], measured_[2][n]});
-      if (known == 0 && core::is_usable(learner.models()[0])) known = n;
+    core::HiddenNoiseLearner in_motion(rate_hz_);
+    core::StandstillLearner at_rest(rate_hz_);
+    const std::size_t moving = learn(in_motion);
+    const std::size_t resting = learn(at_rest);
+    if (moving == 0)
+      std::printf(" nothing learned");
+    else
+      print_learned(moving, in_motion.models());
+    if (resting > 0) {
+      std::printf(" | at rest");
+      print_learned(resting, at_rest.models());
+      std::printf(", lines");
+      for (const core::NoiseModel& model : at_rest.models()) std::printf(" %zu", model.line_count);
     }
-    if (known == 0) {
-      std::printf(" nothing learned\n");
-      return 0;
-    }
-    std::printf(" %5.1f s", static_cast<double>(known) / rate_hz_);
-    if (!core::is_usable(learner.models()[0])) std::printf(", forgotten since");
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      std::printf(" %5.2f", core::noise_variance(learner.models()[axis]) / mean_square(noise_[axis]));
     std::printf("\n");
-    return known;
+    return moving == 0 ? resting : resting == 0 ? moving : std::min(moving, resting);
   }
 
   void print_errors(std::size_t known) const {
@@ -168,6 +170,27 @@ class Row {
   }
 
  private:
+  /// @return first sample behind which something is known; 0 where nothing ever is
+  template <class Learner>
+  std::size_t learn(Learner& learner) const {
+    std::size_t known = 0;
+    for (std::size_t n = 0; n < truth_[0].size(); ++n) {
+      learner.step(
+          {measured_[0][n] / kDegPerRad, measured_[1][n] / kDegPerRad, measured_[2][n] / kDegPerRad});
+      if (known == 0 && core::is_usable(learner.models()[0])) known = n;
+    }
+    return known;
+  }
+
+  void print_learned(std::size_t known, const std::array<core::NoiseModel, 3>& models) const {
+    std::printf(" %5.1f s", static_cast<double>(known) / rate_hz_);
+    if (!core::is_usable(models[0])) std::printf(", forgotten since");
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double variance = kDegPerRad * kDegPerRad * core::noise_variance(models[axis]);
+      std::printf(" %5.2f", variance / mean_square(noise_[axis]));
+    }
+  }
+
   void print_error(const char* name, const settings::Settings& settings, std::size_t begin) const {
     Answers answers;
     app::DenoiseSummary summary;

@@ -20,6 +20,7 @@ namespace {
 using app::ExitCode;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 class CalibrateCommand : public Rig {
@@ -60,6 +61,43 @@ TEST_F(CalibrateCommand, FindsTheStillPartAndItsNoise) {
   }
   EXPECT_NEAR(document.at("axes").at("x").at("bias_radps").get<double>() * 180.0 / std::numbers::pi, 0.5,
               0.011);
+}
+
+/// Two minutes at rest with the engine on: 0.12 and 0.08 deg/s at 22.5 Hz on x and y, a quarter turn apart, in white noise of 0.2 deg/s.
+std::string idling() {
+  std::mt19937_64 bits(12);
+  std::normal_distribution<double> normal(0.0, 0.2);
+  std::ostringstream text;
+  text << "timestamp_s,gyro_x_dps,gyro_y_dps,gyro_z_dps\n";
+  for (int n = 0; n < 12'000; ++n) {
+    const double t = 0.01 * n;
+    const double turn = 2.0 * std::numbers::pi * 22.5 * t;
+    text << t << ',' << 0.12 * std::sin(turn) + normal(bits) << ',' << 0.08 * std::cos(turn) + normal(bits)
+         << ',' << normal(bits) << '\n';
+  }
+  return text.str();
+}
+
+TEST_F(CalibrateCommand, LeavesOutWhatAnEngineShakes) {
+  write_file("idle.csv", idling());
+  const Result result = calibrate({path("idle.csv"), "-o", path("cal.json")});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  // 0.12 and 0.08 over the square root of two.
+  EXPECT_THAT(result.out, HasSubstr("axes share a line at 22.5 Hz (x 0.08"));
+  EXPECT_THAT(result.out, HasSubstr("deg/s, y 0.05"));
+  EXPECT_THAT(result.out, HasSubstr("an engine or a fan, left out of the noise; --all-still takes it"));
+  const Json document = Json::parse(read_file("cal.json"));
+  EXPECT_FALSE(document.at("axes").at("x").contains("lines"));
+  EXPECT_NEAR(document.at("figures").at("x").at("std_dps").get<double>(), 0.2, 0.2 * 0.027);
+}
+
+// A supply's line may be on all axes, too.
+TEST_F(CalibrateCommand, TakesALineOfAllAxesOnTheUsersWord) {
+  write_file("idle.csv", idling());
+  const Result result = calibrate({path("idle.csv"), "-o", path("cal.json"), "--all-still"});
+  ASSERT_EQ(result.exit_code, ExitCode::kDone) << result.err;
+  EXPECT_THAT(result.out, Not(HasSubstr("axes share")));
+  EXPECT_THAT(result.out, HasSubstr("x has a narrow line at 22.5 Hz"));
 }
 
 TEST_F(CalibrateCommand, RefusesARecordingThatMovesAndSaysHowMuch) {

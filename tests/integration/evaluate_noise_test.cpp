@@ -30,7 +30,7 @@ struct RestAndSwing {
   unsigned seed = 3;
   double rate_hz = 100.0;
   bool truth = true;
-  bool three_axes = false;  ///< x and y with the same noise, and at rest
+  bool three_axes = false;  ///< x and y with as much noise, their lines at 17 and 23 Hz, and at rest
 
   [[nodiscard]] std::string text() const {
     std::mt19937_64 random(seed);
@@ -43,10 +43,12 @@ struct RestAndSwing {
     for (int n = 0; n < rest + static_cast<int>(swing_s * rate_hz); ++n) {
       const double right =
           n < rest ? 0.0 : 5.0 * std::sin(2.0 * std::numbers::pi * 0.3 * (n - rest) / rate_hz);
-      const double line = 0.2 * std::sqrt(0.5) * std::cos(2.0 * std::numbers::pi * 20.0 * n / rate_hz);
+      const auto line = [&](double hz) {
+        return 0.2 * std::sqrt(0.5) * std::cos(2.0 * std::numbers::pi * hz * n / rate_hz);
+      };
       out << n / rate_hz << ',';
-      if (three_axes) out << line + normal(random) << ',' << line + normal(random) << ',';
-      out << right + line + normal(random);
+      if (three_axes) out << line(17.0) + normal(random) << ',' << line(23.0) + normal(random) << ',';
+      out << right + line(20.0) + normal(random);
       if (truth) out << ',' << right;
       out << '\n';
     }

@@ -28,6 +28,8 @@ constexpr double kLeastHalfWidth = 0.05;
 
 /// A filter needs a white part, also where lines hold nearly all.
 constexpr double kLeastWhiteOfAll = 1e-4;
+/// Coherence of a shared line, at least: both axes have it, as it is (1 - 1 / r)(1 - 1 / s) where it makes their floors r and s times as high.
+constexpr double kSharedLine = 0.25;
 
 NoiseSpectrum floor_of(const NoiseSpectrum& power) noexcept {
   NoiseSpectrum floor = power;
@@ -94,35 +96,62 @@ std::size_t highest(const NoiseSpectrum& power, const NoiseSpectrum& floor, doub
   return peak;
 }
 
-}  // namespace
+void insert(SpectrumParts& parts, const SpectralLine& line) noexcept {
+  std::size_t place = parts.line_count++;
+  for (; place > 0 && parts.line[place - 1].cycles > line.cycles; --place)
+    parts.line[place] = parts.line[place - 1];
+  parts.line[place] = line;
+}
 
-SpectrumParts take_lines(const NoiseSpectrum& power, double segments) noexcept {
+/// @param is_shared of an Extent
+template <class IsShared>
+SpectrumParts take_apart(const NoiseSpectrum& power, double segments, IsShared is_shared) noexcept {
   SpectrumParts parts{.rest = power};
   const NoiseSpectrum floor = floor_of(power);
   const double stands_above = std::max(kStandsAbove, 0.5 * kStandsAbove + kFewSegments / segments);
-  while (parts.line_count < kMaxNoiseLines) {
+  while (parts.line_count < kMaxNoiseLines && parts.shared_count < kMaxSharedLines) {
     const std::size_t peak = highest(parts.rest, floor, stands_above);
     if (peak == 0) break;
     const Extent extent = extent_of(parts.rest, floor, peak);
     const SpectralLine line = line_of(parts.rest, floor, peak, extent);
     std::copy_n(floor.begin() + static_cast<std::ptrdiff_t>(extent.first), extent.last - extent.first + 1,
                 parts.rest.begin() + static_cast<std::ptrdiff_t>(extent.first));
-    std::size_t place = parts.line_count++;
-    for (; place > 0 && parts.line[place - 1].cycles > line.cycles; --place)
-      parts.line[place] = parts.line[place - 1];
-    parts.line[place] = line;
+    if (is_shared(extent))
+      parts.shared[parts.shared_count++] = line;
+    else
+      insert(parts, line);
   }
   return parts;
 }
 
-std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power, double segments) noexcept {
-  const SpectrumParts parts = take_lines(power, segments);
+/// @param power what was taken apart
+std::optional<NoiseModel> fit_parts(const SpectrumParts& parts, const NoiseSpectrum& power) noexcept {
   auto model = fit_noise(parts.rest);
   if (!model) return fit_noise(power);
   model->line_count = parts.line_count;
   model->line = parts.line;
   model->white_variance = std::max(model->white_variance, kLeastWhiteOfAll * noise_variance(*model));
   return is_usable(*model) ? model : std::nullopt;
+}
+
+}  // namespace
+
+SpectrumParts take_lines(const NoiseSpectrum& power, double segments) noexcept {
+  return take_apart(power, segments, [](const Extent&) { return false; });
+}
+
+SpectrumParts take_lines(const AxisSpectra& axes, std::size_t axis) noexcept {
+  return take_apart(axes.power[axis], axes.segments[axis], [&](const Extent& extent) {
+    return axes.shared(axis, extent.first, extent.last) >= kSharedLine;
+  });
+}
+
+std::optional<NoiseModel> fit_noise_and_lines(const NoiseSpectrum& power, double segments) noexcept {
+  return fit_parts(take_lines(power, segments), power);
+}
+
+std::optional<NoiseModel> fit_noise_and_lines(const AxisSpectra& axes, std::size_t axis) noexcept {
+  return fit_parts(take_lines(axes, axis), axes.power[axis]);
 }
 
 void add_lines(const NoiseModel& model, NoiseSpectrum& power) noexcept {

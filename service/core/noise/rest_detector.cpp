@@ -24,13 +24,6 @@ constexpr double kMostBridged = 0.02;
 constexpr std::size_t kHalfWindow = RestDetector::kBlocks / 2;
 constexpr std::size_t kHalfSegment = kNoiseSegment / 2;
 
-void add_up(RestDetector::Segments& sum, const RestDetector::Segments& more) noexcept {
-  for (std::size_t axis = 0; axis < sum.power.size(); ++axis) {
-    for (std::size_t k = 0; k < kNoiseBins; ++k) sum.power[axis][k] += more.power[axis][k];
-  }
-  sum.count += more.count;
-}
-
 }  // namespace
 
 RestDetector::RestDetector(double sample_rate_hz)
@@ -109,10 +102,10 @@ void RestDetector::end_part() noexcept {
 void RestDetector::end_segment() noexcept {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     periodogram_.transform(segment_[axis], scratch_);
-    for (std::size_t k = 0; k < kNoiseBins; ++k) fresh_.power[axis][k] += scratch_[k];
+    std::ranges::copy(periodogram_.spectrum(), transforms_[axis].begin());
     std::copy(segment_[axis].begin() + kHalfSegment, segment_[axis].end(), segment_[axis].begin());
   }
-  fresh_.count += 1.0;
+  fresh_.add(transforms_);
   in_segment_ = kHalfSegment;
 }
 
@@ -136,10 +129,18 @@ void RestDetector::end_block() noexcept {
     after_gap_ = false;
   }
   blocks_ = std::min(blocks_ + 1, kBlocks);
-  add_up(this_half_, fresh_);
+  add_fresh();
   verdict_ = judge();
   if (++in_half_ == kHalfWindow) end_half();
   settle_block();
+}
+
+void RestDetector::add_fresh() noexcept {
+  if (fresh_.count == 0.0) return;
+  for (std::size_t axis = 0; axis < this_half_.power.size(); ++axis) {
+    for (std::size_t k = 0; k < kNoiseBins; ++k) this_half_.power[axis][k] += fresh_.power[axis][k];
+  }
+  this_half_.count += fresh_.count;
 }
 
 /// Long enough for the noise that there is.
@@ -161,7 +162,8 @@ void RestDetector::settle_block() noexcept {
 /// With the newest block; the segment at work holds what was before.
 void RestDetector::begin_run() noexcept {
   blocks_ = 0;
-  fresh_ = this_half_ = last_half_ = {};
+  fresh_ = {};
+  this_half_ = last_half_ = {};
   in_segment_ = in_half_ = 0;
   listened_ = false;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/noise/axis_spectra.hpp"
 #include "core/noise/noise_fit.hpp"
 #include "core/noise/own_low_pass.hpp"
 #include "core/signal/periodogram.hpp"
@@ -40,16 +41,10 @@ enum class RestVerdict : std::uint8_t {
 /// forces that differ from the one before count: one that is slower than the gyro, and holds or repeats its last, tells so much less; n is
 /// that number in the second rule. Neither level nor bias is judged: that takes a memory
 /// (standstill_learner.hpp). The verdict is a function of samples and sample rate alone: no clock.
-/// Constant memory of about 80 kB; nothing allocates after construction. One thread at a time.
+/// Constant memory of about 110 kB; nothing allocates after construction. One thread at a time.
 class RestDetector {
  public:
   static constexpr std::size_t kBlocks = 8;
-
-  /// Spectra of the segments that ended within the last block: their sum.
-  struct Segments {
-    std::array<NoiseSpectrum, 3> power{};
-    double count = 0.0;
-  };
 
   /// @pre sample_rate_hz > 0
   explicit RestDetector(double sample_rate_hz);
@@ -73,8 +68,8 @@ class RestDetector {
   [[nodiscard]] const Triple& variance() const noexcept { return variance_; }
   /// Mean rate over the eight blocks.
   [[nodiscard]] const Triple& mean() const noexcept { return mean_; }
-  /// Half overlapping segments of kNoiseSegment samples; all lie within the eight blocks.
-  [[nodiscard]] const Segments& fresh() const noexcept { return fresh_; }
+  /// The half overlapping segments of kNoiseSegment samples that ended within the last block; all lie within the eight blocks.
+  [[nodiscard]] const AxisSums& fresh() const noexcept { return fresh_; }
   [[nodiscard]] std::size_t block_samples() const noexcept { return block_samples_; }
 
  private:
@@ -96,6 +91,10 @@ class RestDetector {
     double squared_means = 0.0;
   };
   using Window = std::array<Block, kBlocks>;
+  struct Segments {
+    std::array<NoiseSpectrum, 3> power{};
+    double count = 0.0;
+  };
 
   void add(std::size_t input, double value) noexcept;
   void end_part() noexcept;
@@ -104,6 +103,7 @@ class RestDetector {
   void settle_block() noexcept;
   void end_segment() noexcept;
   void begin_run() noexcept;
+  void add_fresh() noexcept;
   void end_half() noexcept;
   void take_force(const Triple& force) noexcept;
   [[nodiscard]] const OwnLowPass& low_pass_of(std::size_t input) const noexcept {
@@ -137,7 +137,8 @@ class RestDetector {
   Periodogram periodogram_;
   std::array<std::vector<double>, 3> segment_;  ///< the samples of the segment at work
   std::size_t in_segment_ = 0;
-  Segments fresh_;
+  AxisTransforms transforms_{};  ///< of the last segment
+  AxisSums fresh_;
   Segments this_half_;  ///< of the run's blocks 1 to 4, 5 to 8 and so on: those at work
   Segments last_half_;
   std::size_t in_half_ = 0;  ///< blocks

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/noise/noise_lines.hpp"
 #include "core/noise/same_noise.hpp"
@@ -122,22 +123,19 @@ void StandstillLearner::vote_for_other_bias() noexcept {
 
 void StandstillLearner::learn() noexcept {
   learn_bias();
-  const RestDetector::Segments& fresh = detector_.fresh();
+  const AxisSums& fresh = detector_.fresh();
   if (fresh.count == 0.0) return;
-  for (std::size_t axis = 0; axis < power_.size(); ++axis) {
-    // An axis that does not change has no spectrum but that of rounding.
-    if (!(detector_.variance()[axis] > 0.0)) continue;
-    const double kept = std::min(segments_[axis], most_segments_ - fresh.count);
-    segments_[axis] = kept + fresh.count;
+  // An axis that does not change has no spectrum but that of rounding.
+  std::array<bool, 3> alive{};
+  for (std::size_t axis = 0; axis < alive.size(); ++axis) alive[axis] = detector_.variance()[axis] > 0.0;
+  spectra_.blend(fresh, alive, most_segments_);
+  for (std::size_t axis = 0; axis < alive.size(); ++axis) {
+    if (!alive[axis]) continue;
     since_fit_[axis] += fresh.count;
-    double sum = 0.0;
-    for (std::size_t k = 0; k < kNoiseBins; ++k) {
-      power_[axis][k] = (kept * power_[axis][k] + fresh.power[axis][k]) / segments_[axis];
-      sum += power_[axis][k];
-    }
-    level_[axis] = sum / static_cast<double>(kNoiseBins);
+    const auto& power = spectra_.power[axis];
+    level_[axis] = std::accumulate(power.begin(), power.end(), 0.0) / static_cast<double>(kNoiseBins);
   }
-  state_.segments = std::ranges::max(segments_);
+  state_.segments = std::ranges::max(spectra_.segments);
   state_.rest_seconds += fresh.count * segment_seconds_;
   fit();
 }
@@ -155,9 +153,10 @@ void StandstillLearner::learn_bias() noexcept {
 
 void StandstillLearner::fit() noexcept {
   bool fitted = false;
-  for (std::size_t axis = 0; axis < power_.size(); ++axis) {
-    if (segments_[axis] < least_segments_ || since_fit_[axis] < kRefit * segments_[axis]) continue;
-    state_.models[axis] = fit_noise_and_lines(power_[axis], segments_[axis]).value_or(NoiseModel{});
+  for (std::size_t axis = 0; axis < since_fit_.size(); ++axis) {
+    const double segments = spectra_.segments[axis];
+    if (segments < least_segments_ || since_fit_[axis] < kRefit * segments) continue;
+    state_.models[axis] = fit_noise_and_lines(spectra_, axis).value_or(NoiseModel{});
     since_fit_[axis] = 0.0;
     fitted = true;
   }
@@ -170,8 +169,8 @@ void StandstillLearner::forget() noexcept {
   state_.models = {};
   state_.segments = 0.0;
   state_.rest_seconds = 0.0;
-  power_ = {};
-  level_ = segments_ = since_fit_ = {};
+  spectra_ = {};
+  level_ = since_fit_ = {};
   louder_seconds_ = 0.0;
   if (had_models) ++revision_;
 }
@@ -183,14 +182,16 @@ bool StandstillLearner::restore(const StandstillState& state) noexcept {
   state_.sample_rate_hz = rate;
   state_.segments = std::min(state.segments, most_segments_);
   state_.bias_seconds = std::min(state.bias_seconds, kNoiseMemorySeconds);
-  for (std::size_t axis = 0; axis < power_.size(); ++axis) {
+  spectra_ = {};
+  for (std::size_t axis = 0; axis < has_bias_.size(); ++axis) {
     const bool dead = is_dead(state_.models[axis]);
+    auto& power = spectra_.power[axis];
     for (std::size_t k = 0; k < kNoiseBins; ++k) {
       const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kNoiseSegment);
-      power_[axis][k] = dead ? 0.0 : noise_spectrum(without_lines(state_.models[axis]), w);
+      power[k] = dead ? 0.0 : noise_spectrum(without_lines(state_.models[axis]), w);
     }
-    add_lines(state_.models[axis], power_[axis]);
-    segments_[axis] = dead ? 0.0 : state_.segments;
+    add_lines(state_.models[axis], power);
+    spectra_.segments[axis] = dead ? 0.0 : state_.segments;
     has_bias_[axis] = !dead;
     level_[axis] = dead ? 0.0 : noise_variance(state_.models[axis]);
   }

@@ -33,8 +33,9 @@ struct StandstillState {
 /// outvoted.
 ///
 /// Spectra of the segments at rest are averaged, with the weight of the last ten minutes of rest; older ones fade. From five
-/// segments and ten seconds on fit_noise_and_lines() makes models of them, again whenever a tenth has been added.
-/// A function of samples and sample rate alone. About 90 kB; nothing allocates after construction. One thread at a time.
+/// segments and ten seconds on fit_noise_and_lines() makes models of them, again whenever a tenth has been added. A line that two axes share is not
+/// learned: a weak engine's, that passes for rest.
+/// A function of samples and sample rate alone. About 150 kB; nothing allocates after construction. One thread at a time.
 class StandstillLearner {
  public:
   /// @pre sample_rate_hz > 0
@@ -93,11 +94,10 @@ class StandstillLearner {
   bool at_rest_ = false;
   std::uint64_t revision_ = 0;
   StandstillState state_;
-  std::array<NoiseSpectrum, 3> power_{};  ///< averages over segments_
-  Triple segments_{};                     ///< of each axis: one may have come to life later
-  Triple since_fit_{};                    ///< of these
-  Triple level_{};                        ///< variances that the windows are compared with
-  std::array<bool, 3> has_bias_{};        ///< the axis has changed at rest: its mean is no stuck value
+  AxisSpectra spectra_;
+  Triple since_fit_{};              ///< segments of these
+  Triple level_{};                  ///< variances that the windows are compared with
+  std::array<bool, 3> has_bias_{};  ///< the axis has changed at rest: its mean is no stuck value
   double louder_seconds_ = 0.0;
   Triple other_bias_{};
   double other_seconds_ = 0.0;

@@ -1,11 +1,13 @@
-/// Noise model of one axis from a stretch of recording in which the sensor did not move.
+/// Noise models from a recording in which the sensor did not move.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 
 #include "core/noise/noise_fit.hpp"
+#include "core/noise/noise_lines.hpp"
 #include "core/noise/noise_model.hpp"
 
 namespace gyrod::core {
@@ -25,7 +27,21 @@ inline constexpr double kNoiseMargin = 1.02;
 /// Allocates; takes about 4 us per segment.
 [[nodiscard]] std::optional<NoiseModel> still_noise(std::span<const double> still);
 
+/// What is known of one axis of a sensor.
+struct StillAxis {
+  std::optional<NoiseModel> model;
+  std::size_t shared_count = 0;
+  /// Lines that another axis has, too, strongest first: of an engine or a fan, and not in the model.
+  std::array<SpectralLine, kMaxSharedLines> shared{};
+};
+
 /// The same from several stretches of one axis, together of kMinStillSamples at least. No segment spans two.
 [[nodiscard]] std::optional<NoiseModel> still_noise(std::span<const std::span<const double>> stretches);
+
+/// Rates of x, y, z, of equal sizes; empty for an axis that is not there.
+using AxisSamples = std::array<std::span<const double>, kSensorAxes>;
+
+/// The same of a sensor's three axes at once.
+[[nodiscard]] std::array<StillAxis, kSensorAxes> still_noise(std::span<const AxisSamples> stretches);
 
 }  // namespace gyrod::core

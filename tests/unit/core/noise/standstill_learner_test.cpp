@@ -75,6 +75,32 @@ TEST(StandstillLearner, IsNotFooledByASlowConstantTurn) {
   EXPECT_EQ(learner.rest_seconds(), learned);
 }
 
+// A smooth engine that passes for rest under a loud sensor (WID trial 06 in three times an ADIS16405's noise: 0.46 and 0.30 deg/s at 22.5 Hz, a quarter turn
+// apart): the car stands, and what the engine shakes is no noise of the sensor's.
+TEST(StandstillLearner, DoesNotLearnWhatAnEngineShakes) {
+  StandstillLearner learner(100.0);
+  Axes idle = testing::still_axes(6000, 1.0, 5);
+  testing::add_tone(idle, 0, 0.46 * std::numbers::sqrt2, 0.225);
+  idle[1] = testing::sum(std::move(idle[1]), testing::tone(6000, 0.225, 1.6),
+                         0.30 * std::numbers::sqrt2 * kRadPerDeg);
+  EXPECT_GT(seconds_at_rest(learner, idle), 45.0);
+  for (const NoiseModel& model : learner.models()) {
+    EXPECT_EQ(model.line_count, 0U);
+    EXPECT_NEAR(level_dps(model), 1.0, 4.0 * 0.01);
+  }
+  EXPECT_NEAR(learner.bias()[2], 1.0 * kRadPerDeg, 4.0 * kRadPerDeg / std::sqrt(6000.0));
+}
+
+TEST(StandstillLearner, LearnsALineOfTheSensorsOwn) {
+  StandstillLearner learner(100.0);
+  Axes still = testing::still_axes(6000, 0.35, 5);
+  testing::add_tone(still, 2, 0.25, 0.197);
+  testing::run(learner, still, [] {});
+  EXPECT_EQ(learner.models()[0].line_count, 0U);
+  ASSERT_EQ(learner.models()[2].line_count, 1U);
+  EXPECT_NEAR(learner.models()[2].line[0].cycles, 0.197, 0.1 / kNoiseSegment);
+}
+
 TEST(StandstillLearner, OutvotesATurnThatItTookForTheFirstRest) {
   StandstillLearner learner(100.0);
   Axes turn = testing::still_axes(2000, 0.35, 7);
