@@ -177,12 +177,16 @@ class RowJudge {
     judged_.guards.push_back({one.name, core::guards(one, plain, on)});
   }
 
+  /// Of the judged samples.
+  [[nodiscard]] double judged_share(const std::vector<bool>& flags) const {
+    const auto begin = flags.begin() + static_cast<std::ptrdiff_t>(options_.range.begin);
+    const auto end = flags.begin() + static_cast<std::ptrdiff_t>(options_.range.end);
+    return static_cast<double>(std::count(begin, end, true)) / static_cast<double>(end - begin);
+  }
+
   void note_fit(const core::Contender& contender) {
-    const auto begin = contender.misfit->begin();
-    const auto flagged = std::count(begin + static_cast<std::ptrdiff_t>(options_.range.begin),
-                                    begin + static_cast<std::ptrdiff_t>(options_.range.end), true);
-    judged_.misfit_share =
-        static_cast<double>(flagged) / static_cast<double>(options_.range.end - options_.range.begin);
+    judged_.misfit_share = judged_share(*contender.misfit);
+    if (contender.hidden_noise) judged_.hidden_noise_share = judged_share(*contender.hidden_noise);
     judged_.noise_ratio = contender.noise_ratio;
   }
 

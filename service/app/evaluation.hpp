@@ -79,7 +79,8 @@ struct JudgedRow {
   std::optional<std::size_t> noise_known_from_sample;
   std::optional<double>
       misfit_share;  ///< of the judged samples at which their model says that it does not fit; nothing: none has one
-  double noise_ratio = 1.0;  ///< Contender::noise_ratio
+  double hidden_noise_share = 0.0;  ///< of them at which it says that a low-pass hides the noise
+  double noise_ratio = 1.0;         ///< Contender::noise_ratio
   std::vector<JudgedEstimator> estimators;
   // All methods with the lag of the configuration, and for each lag that they answer with the best causal Butterworth: "Butterworth" for
   // the configuration's, "Butterworth, lag 0".

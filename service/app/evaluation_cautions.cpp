@@ -100,20 +100,28 @@ void tell_of_models(const Evaluation& evaluation, std::vector<std::string>& caut
   if (!band.empty()) cautions.push_back(band);
 }
 
+/// Why the model does not fit.
+std::string why_not(const EvaluationRows& rows, const JudgedRow& row) {
+  if (row.hidden_noise_share > kMuchMisfit) {
+    return "a low-pass of the sensor's own hides the noise, and next to nothing is denoised until it is "
+           "known; "
+           "calibrate the sensor (--calibration)";
+  }
+  if (row.noise_ratio == 1.0) return "the deviations that they claim are not to be trusted";
+  return fmt::format("the noise has {:.2g} times the deviation that is believed; {}", row.noise_ratio,
+                     suspicion(rows, row.noise_known_by));
+}
+
 /// The daemon would flag these samples.
 void tell_of_misfits(const Evaluation& evaluation, std::vector<std::string>& cautions) {
   const auto& [rows, options, judged] = evaluation;
   for (const JudgedRow& row : judged) {
     if (!(row.misfit_share.value_or(0.0) > kMuchMisfit)) continue;
-    const std::string why = row.noise_ratio != 1.0
-                                ? fmt::format("the noise has {:.2g} times the deviation that is believed; {}",
-                                              row.noise_ratio, suspicion(rows, row.noise_known_by))
-                                : std::string("the deviations that they claim are not to be trusted");
     cautions.push_back(
         rows_of({&row}, judged.size()) +
         fmt::format("the model of joint and realtime does not fit {:.0f} % of the judged samples "
                     "(FLAG_MODEL_MISFIT): {}",
-                    100.0 * *row.misfit_share, why));
+                    100.0 * *row.misfit_share, why_not(rows, row)));
   }
 }
 

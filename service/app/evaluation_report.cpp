@@ -158,6 +158,7 @@ Json row_json(const JudgedRow& row) {
               {"noise_known_from_sample",
                row.noise_known_from_sample ? Json(*row.noise_known_from_sample) : Json(nullptr)},
               {"misfit_share", number(row.misfit_share)},
+              {"hidden_noise_share", row.hidden_noise_share},
               {"noise_ratio", row.noise_ratio},
               {"estimators", estimators_json(row)},
               {"guards", guards_json(row)},

@@ -30,11 +30,13 @@ class Answering {
     contender.estimate.assign(samples, std::numeric_limits<double>::quiet_NaN());
     contender.std.emplace(samples, std::numeric_limits<double>::quiet_NaN());
     contender.misfit.emplace(samples, false);
+    contender.hidden_noise.emplace(samples, false);
   }
 
   void step(std::size_t t, double sample) {
     const stream::Estimates both = filter->step(sample);
     (*contender.misfit)[t] = filter->model_fit().misfit;
+    (*contender.hidden_noise)[t] = filter->model_fit().hidden_noise;
     if (t >= lag_) put(t - lag_, realtime_ ? both.realtime : both.denoised);
   }
 

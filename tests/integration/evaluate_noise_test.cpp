@@ -1,4 +1,5 @@
 /// `gyrod evaluate`: what joint and realtime are told of the noise, by calibration, by rest in the record, or not at all.
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -128,6 +129,29 @@ TEST_F(EvaluateNoise, SaysWhereACalibrationDoesNotFit) {
   const json learned = figures({"--from", "40s"});
   EXPECT_LT(learned["rows"][0]["misfit_share"], 0.05);
   EXPECT_EQ(learned["rows"][0]["noise_ratio"], 1.0);
+}
+
+// Behind a filter of second order at a fourteenth of the rate; one axis, and no rest.
+TEST_F(EvaluateNoise, SaysWhereALowPassHidesIt) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0.0, 0.3);
+  std::ostringstream text;
+  text << "timestamp_s,gyro_z_dps,truth_z_dps\n";
+  std::array<double, 3> white{};
+  std::array<double, 3> noise{};
+  for (int n = 0; n < 6000; ++n) {
+    white = {normal(random), white[0], white[1]};
+    noise = {0.04 * (white[0] + 2.0 * white[1] + white[2]) + 1.4 * noise[0] - 0.56 * noise[1], noise[0],
+             noise[1]};
+    const double right = 5.0 * std::sin(2.0 * std::numbers::pi * 0.3 * n / 100.0);
+    text << n / 100.0 << ',' << right + noise[0] << ',' << right << '\n';
+  }
+  write_file("in.csv", text.str());
+  const json all = figures();
+  EXPECT_EQ(all["rows"][0]["hidden_noise_share"], 1.0);
+  EXPECT_THAT(all["cautions"].dump(), HasSubstr("a low-pass of the sensor's own hides the noise"));
+  write_file("in.csv", RestAndSwing{.rest_s = 5}.text());
+  EXPECT_EQ(figures()["rows"][0]["hidden_noise_share"], 0.0);
 }
 
 TEST_F(EvaluateNoise, IsGuessedWhereTheRecordShowsNoRest) {

@@ -39,6 +39,8 @@ struct Contender {
   std::optional<SeamPattern> seams;
   /// Whether its own model says, when a sample comes in, that it does not explain what comes; nothing: it has no model.
   std::optional<std::vector<bool>> misfit;
+  /// Whether it says that a sensor's own low-pass hides the noise, which it does not know.
+  std::optional<std::vector<bool>> hidden_noise;
   /// The noise's standard deviation as the model has it in the end, in parts of what is believed, where it says that that is wrong; else 1.
   double noise_ratio = 1.0;
 };
