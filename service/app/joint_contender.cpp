@@ -121,8 +121,8 @@ class SlowLoop {
             .samples = noisy_[axis].empty() ? std::span(unmeasured_).first(length())
                                             : noisy_[axis].subspan(begin, length()),
             .sample_rate_hz = run_.sample_rate_hz,
-            .noise_source =
-                core::is_usable(noise) ? stream::NoiseSource::kCalibrated : stream::NoiseSource::kNone,
+            .noise_source = core::is_usable(noise) || noise.line_count > 0 ? stream::NoiseSource::kCalibrated
+                                                                           : stream::NoiseSource::kNone,
             .noise = noise};
   }
 

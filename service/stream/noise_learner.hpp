@@ -14,7 +14,7 @@ namespace gyrod::stream {
 struct ChannelNoise {
   /// Of all three axes: the weakest of theirs. kNone: the models mean nothing, and methods judge by the window itself.
   NoiseSource source = NoiseSource::kNone;
-  /// x, y, z, (rad/s)^2; usable (core::is_usable) unless the source is kNone.
+  /// x, y, z, (rad/s)^2; usable (core::is_usable) unless the source is kNone, or kImf1 and of an axis lines at most are known.
   std::array<core::NoiseModel, kAxes> axis{};
 
   friend bool operator==(const ChannelNoise&, const ChannelNoise&) = default;

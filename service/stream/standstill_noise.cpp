@@ -42,6 +42,17 @@ bool has_force(const Sample& sample) noexcept {
          std::ranges::all_of(*sample.specific_force_mps2, [](double value) { return std::isfinite(value); });
 }
 
+/// Lines alone, where no axis has more.
+ChannelNoise noise_in_motion(const std::array<core::NoiseModel, kAxes>& models) noexcept {
+  if (std::ranges::any_of(models, core::is_usable)) return channel_noise(NoiseSource::kImf1, models);
+  if (std::ranges::all_of(models, [](const core::NoiseModel& model) { return model.line_count == 0; }))
+    return {};
+  ChannelNoise noise{NoiseSource::kImf1, {}};
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
+    noise.axis[axis] = core::scaled(models[axis], core::kNoiseMargin);
+  return noise;
+}
+
 double first_rate(const StandstillOptions& options) noexcept {
   if (options.sample_rate_hz > 0.0) return options.sample_rate_hz;
   if (options.remembered) return options.remembered->sample_rate_hz;
@@ -181,7 +192,7 @@ ChannelNoise StandstillNoise::known() const noexcept {
   if (!options_.use_learned) return {};
   const bool at_rest = !hidden_ || learned_at_rest_;
   return at_rest ? channel_noise(NoiseSource::kStandstill, learner_.models())
-                 : channel_noise(NoiseSource::kImf1, hidden_->models());
+                 : noise_in_motion(hidden_->models());
 }
 
 void StandstillNoise::reset_segment() noexcept {

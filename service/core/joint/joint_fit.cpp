@@ -95,32 +95,35 @@ void JointFit::fit(std::span<const double> window, const NoiseModel& noise, Join
 }
 
 /// What the noise is taken for: as believed, its level corrected by what the windows so far have shown, and its lines where they have shown
-/// them. Where no colour is believed, or nothing is, what the bands show; at most what the other axes allow.
+/// them. Where no colour is believed, or nothing is but lines, what the bands show; at most what the other axes allow.
 void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, WindowReport& report) noexcept {
   const NoiseBelief belief = belief_in(believed);
   const bool known = belief != NoiseBelief::kNothing;
   unit_ = known ? noise_variance(believed) : 1.0;
   noise_ = known ? scaled(believed, 1.0 / std::sqrt(unit_)) : white_noise(1.0);
-  take_lines(model.lines, noise_.lines());
+  take_lines(model.lines, known ? noise_.lines() : believed.lines());
   for (double& power : periodogram_) power /= unit_;
   whittle_.observe(periodogram_, noise_);
-  model.noise.observe(periodogram_, whittle_.noise(), believed, new_share(), scale_.forgetting(new_share()),
-                      own_, static_cast<double>(centred_.size()) / static_cast<double>(max_samples_));
+  model.noise.observe(periodogram_, whittle_.noise(), known ? believed : NoiseModel{}, new_share(),
+                      scale_.forgetting(new_share()), own_,
+                      static_cast<double>(centred_.size()) / static_cast<double>(max_samples_));
   const NoiseShape& shape = model.noise.shape();
   if (belief == NoiseBelief::kColour) {
     noise_ = scaled(without_lines(noise_), std::sqrt(shape.level));
     // Quieter windows do not make a line weaker than it is believed to be, unless by far: it may be all that is as loud as ever.
     const double line_level = shape.level < kOtherNoise ? shape.level : std::max(shape.level, 1.0);
-    for (NoiseLine& line : std::span(lines_).first(line_count_)) {
-      line.power *= line_level;
-      line.mode.drive *= line_level;
-    }
+    scale_lines(line_level);
   } else if (known) {
     noise_ = noise_of(shape);
   } else {
     unit_ = std::min(shape.level, most_noise_);
     noise_ = is_usable(white_noise(unit_)) ? noise_of({.level = 1.0, .tilt = shape.tilt}) : NoiseModel{};
-    for (double& power : periodogram_) power /= is_usable(noise_) ? unit_ : 1.0;
+    if (is_usable(noise_)) {
+      for (double& power : periodogram_) power /= unit_;
+      scale_lines(1.0 / unit_);
+    } else {
+      line_count_ = 0;
+    }
   }
   if (is_usable(noise_)) {
     std::array<SpectralMode, kMaxNoiseLines> modes{};
@@ -128,6 +131,13 @@ void JointFit::judge_noise(const NoiseModel& believed, JointModel& model, Window
     whittle_.observe(periodogram_, noise_, std::span(modes).first(line_count_));
   }
   report.noise_floor = std::sqrt(seen_noise());
+}
+
+void JointFit::scale_lines(double factor) noexcept {
+  for (NoiseLine& line : std::span(lines_).first(line_count_)) {
+    line.power *= factor;
+    line.mode.drive *= factor;
+  }
 }
 
 double JointFit::lines_power() const noexcept {

@@ -54,7 +54,8 @@ class JointFit {
   void set_own(const BandPower& own) noexcept { own_ = own; }
 
   /// @param window uniformly sampled, finite, any unit
-  /// @param noise  the channel's noise; where it is not usable, or of its colour nothing is believed, what NoiseTracker makes of the bands is taken
+  /// @param noise  the channel's noise; where it is not usable, or of its colour nothing is believed, what NoiseTracker makes of the bands is taken. Of one
+  ///               that is not usable the lines are taken
   /// @param model  receives the members; untouched, but for `fallbacks` (0), where the window does not vary
   /// @param report receives mean, noise floor and the IMFs' figures
   /// @pre kMinSamples <= window.size() <= max_samples
@@ -92,6 +93,7 @@ class JointFit {
     return unit_ * (noise_variance(noise_) + lines_power());
   }
   [[nodiscard]] std::span<const NoiseLine> lines() const noexcept { return {lines_.data(), line_count_}; }
+  void scale_lines(double factor) noexcept;
   [[nodiscard]] double lines_power() const noexcept;
   void take_lines(LineTrackers& trackers, std::span<const SpectralLine> believed) noexcept;
   void follow_lines(LineTrackers& trackers, std::size_t samples) noexcept;

@@ -28,9 +28,9 @@ constexpr AxisBands::Axes kNothingSeen = nothing_seen();
 
 }  // namespace
 
-HiddenNoiseLearner::HiddenNoiseLearner(double sample_rate_hz) : periodogram_(kNoiseSegment) {
+HiddenNoiseLearner::HiddenNoiseLearner(double sample_rate_hz)
+    : periodogram_(kNoiseSegment), own_lines_(static_cast<double>(kSegmentHop) / sample_rate_hz) {
   for (auto& samples : segment_) samples.resize(kNoiseSegment);
-  for (auto& transform : transforms_) transform.resize(kNoiseBins);
   retime(sample_rate_hz);
 }
 
@@ -44,6 +44,7 @@ void HiddenNoiseLearner::retime(double sample_rate_hz) noexcept {
   most_segments_ = std::max(least_segments_, kNoiseMemorySeconds / segment_seconds);
   least_ = least_before_ = kNothingSeen;
   least_seconds_ = 0.0;
+  own_lines_.retime(segment_seconds);
   forget();
   interrupt();
 }
@@ -54,6 +55,7 @@ void HiddenNoiseLearner::interrupt() noexcept {
   repeats_ = {};
   this_half_ = last_half_ = {};
   last_counted_ = false;
+  own_lines_.interrupt();
 }
 
 void HiddenNoiseLearner::step(const Triple& rate, bool measured) noexcept {
@@ -68,7 +70,10 @@ void HiddenNoiseLearner::step(const Triple& rate, bool measured) noexcept {
 }
 
 void HiddenNoiseLearner::end_segment() noexcept {
-  if (unmeasured_[0] + unmeasured_[1] <= kMostUnmeasured) add_segment();
+  if (unmeasured_[0] + unmeasured_[1] <= kMostUnmeasured)
+    add_segment();
+  else
+    own_lines_.interrupt();
   for (auto& samples : segment_) std::copy(samples.begin() + kSegmentHop, samples.end(), samples.begin());
   in_segment_ = kSegmentHop;
   unmeasured_ = {unmeasured_[1], 0};
@@ -85,6 +90,7 @@ void HiddenNoiseLearner::add_segment() noexcept {
   }
   add_shared();
   this_half_.bands.count += 1.0;
+  if (own_lines_.add(transforms_)) publish();
 }
 
 void HiddenNoiseLearner::add_shared() noexcept {
@@ -193,10 +199,22 @@ void HiddenNoiseLearner::fit() noexcept {
   for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
     NoiseSpectrum noise = shape;
     for (double& density : noise) density *= scale[axis];
-    models_[axis] = fit_noise_and_lines(noise, weight).value_or(NoiseModel{});
+    fitted_[axis] = fit_noise_and_lines(noise, weight).value_or(NoiseModel{});
   }
   since_fit_ = 0.0;
-  ++revision_;
+  publish();
+}
+
+void HiddenNoiseLearner::publish() noexcept {
+  const auto before = models_;
+  for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
+    const NoiseModel& own = own_lines_.lines()[axis];
+    models_[axis] = fitted_[axis];
+    if (fitted_[axis].line_count > 0) continue;
+    models_[axis].line_count = own.line_count;
+    models_[axis].line = own.line;
+  }
+  if (models_ != before) ++revision_;
 }
 
 /// Density of each axis in parts of the middle one: where the low-pass falls off, as motion is slower than that.
@@ -244,8 +262,8 @@ NoiseSpectrum HiddenNoiseLearner::quietest_shape(std::size_t first, const Triple
 }
 
 void HiddenNoiseLearner::forget() noexcept {
-  if (std::ranges::any_of(models_, is_usable)) ++revision_;
-  models_ = {};
+  fitted_ = {};
+  publish();
   power_ = {};
   weight_ = {};
   since_fit_ = louder_seconds_ = 0.0;

@@ -1,16 +1,17 @@
-/// Learns noise that a sensor's own low-pass has shaped while the sensor moves.
+/// Learns while a sensor moves what does not show at a glance of its noise: what its own low-pass has shaped, and its lines.
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/noise/axis_bands.hpp"
+#include "core/noise/axis_spectra.hpp"
 #include "core/noise/noise_alone.hpp"
 #include "core/noise/noise_fit.hpp"
 #include "core/noise/noise_model.hpp"
+#include "core/noise/own_lines.hpp"
 #include "core/noise/rest_detector.hpp"
 #include "core/signal/periodogram.hpp"
 
@@ -21,9 +22,10 @@ namespace gyrod::core {
 /// begins anew, as motion only adds; and so it does where half an hour of it was louder. From four halves on, and again whenever a tenth has been added,
 /// fit_noise_and_lines() makes models of
 ///   the shape:  band by band that of the quietest axis, and of those that are louder by chance, each to the scale of the others, as a low-pass is one for
-///            all of them; before the slowest band that was learned as dense as those after it that are alike. An axis's own lines are not learned;
+///            all of them; before the slowest band that was learned as dense as those after it that are alike. An axis's own lines are not part of it;
 ///   the scale:  of each axis where the low-pass falls off, as motion is slower than that.
-/// A function of samples and sample rate alone. About 70 kB; nothing allocates after construction. One thread at a time.
+/// Lines are those of OwnLines, which takes all segments: with these models, and alone where there are none.
+/// A function of samples and sample rate alone. About 140 kB; nothing allocates after construction. One thread at a time.
 /// Source: docs/joint.md, "Noise that a low-pass hides".
 class HiddenNoiseLearner {
  public:
@@ -42,7 +44,7 @@ class HiddenNoiseLearner {
 
   /// Rises with every change of models().
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
-  /// As measured, without kNoiseMargin. Not usable (is_usable()) before enough was learned.
+  /// As measured, without kNoiseMargin. Not usable (is_usable()) before enough was learned, but for lines that are known.
   [[nodiscard]] const std::array<NoiseModel, kSensorAxes>& models() const noexcept { return models_; }
 
  private:
@@ -67,6 +69,7 @@ class HiddenNoiseLearner {
   [[nodiscard]] Triple scales(std::size_t first) const noexcept;
   [[nodiscard]] NoiseSpectrum quietest_shape(std::size_t first, const Triple& scale) const noexcept;
   void forget() noexcept;
+  void publish() noexcept;
 
   double half_seconds_ = 0.0;
   double half_segments_ = 0.0;
@@ -76,7 +79,7 @@ class HiddenNoiseLearner {
   AxisBands bands_;
   Periodogram periodogram_;
   std::array<std::vector<double>, kSensorAxes> segment_;
-  std::array<std::vector<std::complex<double>>, kSensorAxes> transforms_;
+  AxisTransforms transforms_{};
   std::size_t in_segment_ = 0;
   std::array<std::size_t, 2> unmeasured_{};  ///< samples of the segment's halves
   Triple last_{};
@@ -91,6 +94,8 @@ class HiddenNoiseLearner {
   AxisBands::Bands weight_{};   ///< segments; never less in a faster band
   double since_fit_ = 0.0;      ///< of these, of the fastest
   double louder_seconds_ = 0.0;
+  std::array<NoiseModel, kSensorAxes> fitted_{};  ///< without the axes' own lines
+  OwnLines own_lines_;
   std::array<NoiseModel, kSensorAxes> models_{};
   std::uint64_t revision_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <span>
 
 #include <gtest/gtest.h>
@@ -84,6 +85,30 @@ TEST(StandstillNoiseInMotion, GivesTheSameBitsForAnyWorkersAndAnyBatching) {
   ASSERT_EQ(expected.size(), input.size());
   EXPECT_LT(expected[7000].rate_std_radps[0], 0.3 * expected[8999].rate_std_radps[0]) << "then known";
   EXPECT_TRUE(same_bits(run(3, 61), expected));
+}
+
+/// A sensor without a low-pass of its own, 0.3 deg/s of white noise and on z a line of 0.2 deg/s at a fifth of the rate, that is moved.
+std::vector<Sample> with_a_line(std::size_t size) {
+  std::array<testing::Signal, 3> axes;
+  for (unsigned axis = 0; axis < kAxes; ++axis) {
+    axes[axis] = testing::times(testing::white_noise(size, 30 + axis), 0.3);
+    axes[axis] = testing::sum(std::move(axes[axis]), testing::tone(size, 0.0005), 5.0);
+  }
+  const std::array<double, 2> line = {2.0 * 0.98 * std::cos(0.4 * std::numbers::pi), -0.98 * 0.98};
+  axes[2] = testing::sum(std::move(axes[2]), testing::autoregressive(line, size, 50), 0.06);
+  return samples_of(axes);
+}
+
+// Of the rest nothing is known: methods judge by the window.
+TEST(StandstillNoiseInMotion, TellsALineOfAnAxis) {
+  StandstillNoise learner(StandstillOptions{});
+  const ChannelNoise noise = after(learner, with_a_line(5 * kHalfMinute));
+  ASSERT_EQ(noise.source, NoiseSource::kImf1);
+  EXPECT_EQ(noise.axis[0], core::NoiseModel{});
+  EXPECT_FALSE(core::is_usable(noise.axis[2]));
+  ASSERT_EQ(noise.axis[2].line_count, 1U);
+  EXPECT_NEAR(noise.axis[2].line[0].cycles, 0.2, 0.003);
+  EXPECT_NEAR(std::sqrt(noise.axis[2].line[0].variance) / kRadPerDeg, 0.2, 0.05);
 }
 
 TEST(StandstillNoiseInMotion, GivesWayToWhatRestTeaches) {

@@ -66,6 +66,24 @@ TEST(JointWithANoiseLine, TakesSeveralOff) {
   EXPECT_GT(left(noise), 0.5);
 }
 
+// Of the noise nothing is known but its line, as what was learned in motion tells it: the level is found as without. Taken for motion, nearly all of it came
+// through.
+TEST(JointWithANoiseLine, TakesItOffWhereNothingElseIsKnown) {
+  for (const double level : {0.01, 1.0, 100.0}) {
+    const Signal z = testing::times(
+        testing::sum(testing::white_noise(kSize, 1), line(0.22, kOfHalfThePower, 2), 1.0), level);
+    const auto left = [&](const core::NoiseModel& known) {
+      const auto out = testing::run_joint(z, known, kLag);
+      return testing::rms_difference(out.denoised, Signal(kSize, 0.0), kBegin, kSize - kLag) / level;
+    };
+    core::NoiseModel alone;
+    alone.line_count = 1;
+    alone.line[0] = testing::line(0.2, 0.5 * level * level);
+    EXPECT_GT(left({}), 0.5) << level;
+    EXPECT_LT(left(alone), 0.25) << level;
+  }
+}
+
 // A vibration ten times as strong as the line, or far from it, is motion; a filter that loses it would leave far less.
 TEST(JointWithANoiseLine, KeepsMotionThatIsStrongerOrElsewhere) {
   EXPECT_GT(left_of_noise_with_line_at(0.22, 3.0), 2.0);
