@@ -1,14 +1,15 @@
 // What is learned of a sensor's noise while it moves: behind a low-pass of its own, and of what passes for rest. And what that is worth. For docs/joint.md,
 // docs/measured.md and docs/decisions/0012:
 //
-//   GYROD_DATA=... hidden_noise_study [errors] [RATE LOW_PASS]
+//   GYROD_DATA=... hidden_noise_study [errors] [RATE LOW_PASS [z]]
 //
 // Motion of two cars' reference gyros, of a car's roof, and of hand-held sensors, resampled by lines, 90 s at most, and on the three axes the noise of imu1 x, imu1 y and
 // imu4 x at rest, sample by sample, all behind a low-pass of second order. A line each: sample rate, low-pass (0: none), motion, scale of the noise; when it was
 // learned, s, and its variance in parts of the true one on x, y, z; and likewise what was learned of what passed for rest, in the end, and its lines.
 // With `errors` behind it, of these rows, once either has been in use for 5 s and in the last 60 % at most: the errors of gyro/denoised, rms deg/s, of the raw rates, without what was learned, with it, and
 // calibrated at rest elsewhere; and the mean of error^2 over the published variance of the last three. On each axis. Of all sensors, or of one by its
-// sample rate and low-pass, Hz.
+// sample rate and low-pass, Hz; with z, the third axis has the noise of imu4 z, with a line at a fifth of the sample rate: where that is found, and how strong, in
+// parts of the noise.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,10 +73,11 @@ Axes motion_of(const Recording& recording, double rate_hz) {
 }
 
 /// deg/s, of a sensor at rest, from a sample on.
-Axes noise_from(std::size_t start, std::size_t size, double scale) {
+Axes noise_from(std::size_t start, std::size_t size, double scale, bool with_line) {
+  const std::size_t third = with_line ? 2 : 0;
   static const std::array<std::vector<double>, 3> still = {
       test::detail::still_dps({}, 100.0), test::detail::still_dps({.axis = 1}, 100.0),
-      test::detail::still_dps({.file = "adis16405_imu4_static_100hz.csv.gz"}, 100.0)};
+      test::detail::still_dps({.file = "adis16405_imu4_static_100hz.csv.gz", .axis = third}, 100.0)};
   Axes axes;
   for (std::size_t axis = 0; axis < 3; ++axis)
     axes[axis] = test::noise_of(std::span(still[axis]).subspan(start, size), scale);
@@ -108,13 +110,13 @@ struct Answers final : app::RowHandler {
 
 class Row {
  public:
-  Row(const Recording& recording, double rate_hz, double low_pass_hz, double scale)
+  Row(const Recording& recording, double rate_hz, double low_pass_hz, double scale, bool with_line)
       : rate_hz_(rate_hz), truth_(motion_of(recording, rate_hz)) {
     constexpr std::size_t kCalibratedFrom = 260'000;
     const std::size_t size = truth_[0].size();
     const double cutoff = low_pass_hz / rate_hz;
-    noise_ = noise_from(10'000, size, scale);
-    still_ = noise_from(kCalibratedFrom, size, scale);
+    noise_ = noise_from(10'000, size, scale, with_line);
+    still_ = noise_from(kCalibratedFrom, size, scale, with_line);
     for (Axes* axes : {&truth_, &noise_, &still_}) low_pass(*axes, cutoff);
     measured_ = truth_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -129,10 +131,15 @@ class Row {
     core::StandstillLearner at_rest(rate_hz_);
     const std::size_t moving = learn(in_motion);
     const std::size_t resting = learn(at_rest);
+    const core::NoiseModel& z = in_motion.models()[2];
     if (moving == 0)
       std::printf(" nothing learned");
-    else
+    else if (core::is_usable(z) || z.line_count == 0)
       print_learned(moving, in_motion.models());
+    else
+      std::printf(" %5.1f s, line of z at %.1f Hz %.2f", static_cast<double>(moving) / rate_hz_,
+                  rate_hz_ * z.line[0].cycles,
+                  kDegPerRad * kDegPerRad * z.line[0].variance / mean_square(noise_[2]));
     if (resting > 0) {
       std::printf(" | at rest");
       print_learned(resting, at_rest.models());
@@ -177,7 +184,8 @@ class Row {
     for (std::size_t n = 0; n < truth_[0].size(); ++n) {
       learner.step(
           {measured_[0][n] / kDegPerRad, measured_[1][n] / kDegPerRad, measured_[2][n] / kDegPerRad});
-      if (known == 0 && core::is_usable(learner.models()[0])) known = n;
+      if (known == 0 && (core::is_usable(learner.models()[0]) || learner.models()[2].line_count > 0))
+        known = n;
     }
     return known;
   }
@@ -230,7 +238,7 @@ int main(int argc, char** argv) {
   const bool errors = argc > 1 && std::string(argv[1]) == "errors";
   const int one = errors ? 2 : 1;
   const auto wanted = [&](double rate_hz, double low_pass_hz) {
-    return argc < one + 2 || (rate_hz == std::stod(argv[one]) && low_pass_hz == std::stod(argv[one + 1]));
+    return argc <= one + 1 || (rate_hz == std::stod(argv[one]) && low_pass_hz == std::stod(argv[one + 1]));
   };
   const std::array<std::pair<double, double>, 14> sensors = {{{1000, 188},
                                                               {1000, 98},
@@ -250,7 +258,7 @@ int main(int argc, char** argv) {
     if (!wanted(rate_hz, low_pass_hz)) continue;
     for (const Recording& recording : kRecordings) {
       for (const double scale : {0.3, 1.0, 3.0}) {
-        const Row row(recording, rate_hz, low_pass_hz, scale);
+        const Row row(recording, rate_hz, low_pass_hz, scale, argc > one + 2);
         const std::size_t known = row.learn();
         std::fflush(stdout);
         if (errors && known > 0) row.print_errors(known);

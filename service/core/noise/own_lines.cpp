@@ -17,6 +17,7 @@ constexpr double kLeastBlockSeconds = 15.0;
 constexpr double kLeastWidth = 0.5;
 constexpr std::size_t kMostOfAnAxis = 2;
 constexpr double kMostPhase = 0.5;
+constexpr double kFewestPhases = kLeastBlockSegments - 2.0;
 constexpr double kMostBelow = 1.2;
 constexpr double kSteadyLine = 2.0;
 /// How far a line wanders between two blocks, in parts of its frequency.
@@ -120,7 +121,7 @@ bool OwnLines::end_block() noexcept {
 NoiseModel OwnLines::candidates(std::size_t axis) const noexcept {
   NoiseModel found;
   const SpectrumParts parts = take_lines(all_.power[axis], all_.segments[axis]);
-  if (parts.line_count > kMostOfAnAxis || later_segments_ < kLeastBlockSegments) return found;
+  if (parts.line_count > kMostOfAnAxis || later_segments_ < kFewestPhases) return found;
   for (std::size_t i = 0; i < parts.line_count; ++i) {
     if (is_own(axis, parts.line[i], parts.rest)) found.line[found.line_count++] = parts.line[i];
   }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/evaluation/butterworth.hpp"
+#include "core/noise/hidden_noise_learner.hpp"
 #include "core/noise/standstill_learner.hpp"
 #include "files/record.hpp"
 #include "support/data_folder.hpp"
@@ -106,6 +107,35 @@ TEST(RestOfRecordings, ACarsEngineIsNotLearnedAsTheSensorsLine) {
       EXPECT_EQ(learner.models()[axis].line_count, 0U) << scale;
     }
     EXPECT_EQ(learner.models()[2].line_count, 1U) << "z has a line of its own";
+  }
+}
+
+/// Lines of the axes' own that are known in the end.
+std::array<std::size_t, 3> own_lines(const std::array<std::vector<double>, 3>& axes, double rate_hz) {
+  HiddenNoiseLearner learner(rate_hz);
+  for (std::size_t n = 0; n < axes[0].size(); ++n) learner.step({axes[0][n], axes[1][n], axes[2][n]});
+  std::array<std::size_t, 3> count{};
+  for (std::size_t axis = 0; axis < 3; ++axis) count[axis] = learner.models()[axis].line_count;
+  return count;
+}
+
+// Of a z axis of an ADIS16405, at 20 Hz of 100, in a car, and in nothing that moves without one.
+TEST(LinesOfRecordings, ASensorsIsFoundWhileItMoves) {
+  if (!test::has_drive_rows()) GTEST_SKIP() << "no recordings in " << test::data_folder();
+  for (const double scale : {0.3, 1.0}) {
+    EXPECT_EQ(own_lines(trial06_in_noise(scale), 120.0), (std::array<std::size_t, 3>{0, 0, 1})) << scale;
+  }
+}
+
+TEST(LinesOfRecordings, WhatMovesHasNone) {
+  if (!test::has_hand_rows() || !test::has_shaking_rows())
+    GTEST_SKIP() << "no recordings in " << test::data_folder();
+  EXPECT_EQ(own_lines(test::detail::load(test::shaking_file(), 100.0).gyro_radps, 100.0),
+            (std::array<std::size_t, 3>{}));
+  for (const test::Motion& motion : test::hand_motions()) {
+    EXPECT_EQ(own_lines(test::detail::load(motion.file, motion.rate_hz).gyro_radps, motion.rate_hz),
+              (std::array<std::size_t, 3>{}))
+        << motion.name;
   }
 }
 
