@@ -86,6 +86,7 @@ const char* suspicion(const EvaluationRows& rows, NoiseKnownBy by) noexcept {
       return "was the sensor at rest where it was learned?";
     case NoiseKnownBy::kMotion:
       return "does it shake as noise would?";
+    case NoiseKnownBy::kLines:
     case NoiseKnownBy::kNothing:
       break;
   }
@@ -165,6 +166,8 @@ const char* noise_model_words(const JudgedRow& row) noexcept {
       return "learned at rest in the record";
     case NoiseKnownBy::kMotion:
       return "learned in motion, behind the sensor's low-pass";
+    case NoiseKnownBy::kLines:
+      return "unknown but for lines, learned in motion";
     case NoiseKnownBy::kNothing:
       break;
   }

@@ -67,7 +67,11 @@ void add_learned(NoiseCourse learned, RowNoise& noise) {
   noise.course = std::move(learned);
   const auto tells = [](const KnownNoise& known) { return core::is_usable(known.model); };
   const auto first = std::ranges::find_if(noise.course, tells);
-  if (first == noise.course.end()) return;
+  if (first == noise.course.end()) {
+    const auto has_lines = [](const KnownNoise& known) { return known.model.line_count > 0; };
+    if (std::ranges::any_of(noise.course, has_lines)) noise.by = NoiseKnownBy::kLines;
+    return;
+  }
   const bool rested = std::ranges::any_of(
       noise.course, [&](const KnownNoise& known) { return tells(known) && !known.in_motion; });
   noise.by = rested ? NoiseKnownBy::kRest : NoiseKnownBy::kMotion;

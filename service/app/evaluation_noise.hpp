@@ -35,6 +35,7 @@ enum class NoiseKnownBy : std::uint8_t {
   kSpareSamples,  ///< those of the noise recording that are not added
   kRest,          ///< stretches of the record that look at rest
   kMotion,        ///< what is faster than the motion, behind a low-pass of the sensor's own
+  kLines,         ///< in motion, its lines alone: the rest is guessed
 };
 
 struct RowNoise {

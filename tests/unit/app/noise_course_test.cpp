@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -25,9 +27,10 @@ constexpr std::size_t kRest = 6000;
 constexpr std::size_t kSwingsFrom = 3000;
 constexpr std::size_t kWhole = 5000;
 
-/// deg/s: half a minute at rest, then a swing of 5 deg/s; noise of 0.2 deg/s with a line at 20 Hz, which a guess takes for motion.
+/// deg/s: half a minute at rest, then a swing of 5 deg/s; noise of 0.2 deg/s with a line at 20 Hz of seed 1, and elsewhere of others, which a guess takes for
+/// motion.
 Signal rest_then_swing(unsigned seed) {
-  Signal rates = sum(times(white_noise(kWhole, seed), 0.16), tone(kWhole, 0.2), 0.16);
+  Signal rates = sum(times(white_noise(kWhole, seed), 0.16), tone(kWhole, 0.17 + 0.03 * seed), 0.16);
   for (std::size_t n = kSwingsFrom; n < kWhole; ++n)
     rates[n] += 5.0 * std::sin(0.02 * static_cast<double>(n - kSwingsFrom));
   return rates;
@@ -120,10 +123,40 @@ TEST(LearnedInMotion, IsToldFromWhatRestTeaches) {
   EXPECT_EQ(moved.by, app::NoiseKnownBy::kMotion);
   EXPECT_EQ(moved.from_sample, first_known(courses[0]));
   EXPECT_NEAR(static_cast<double>(first_known(courses[0])), 18.6 * kLowPassedHz, 0.1 * kLowPassedHz);
-  const Signal rates = rest_then_swing(1);
+  const std::array<Signal, 3> rates = {rest_then_swing(1), rest_then_swing(2), rest_then_swing(3)};
   app::RowNoise rested;
-  app::add_learned(app::learned_from({rates, rates, rates}, kCourseRateHz)[0], rested);
+  app::add_learned(app::learned_from({rates[0], rates[1], rates[2]}, kCourseRateHz)[0], rested);
   EXPECT_EQ(rested.by, app::NoiseKnownBy::kRest);
+}
+
+/// deg/s: a swing, and noise of 0.2 deg/s with, on one axis, a line of as much at 20 Hz.
+std::array<Signal, 3> swing_with_a_line() {
+  std::array<Signal, 3> rates;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    rates[axis] = sum(times(white_noise(kWhole, 60 + axis), 0.2), tone(kWhole, 0.002), 5.0);
+  }
+  const std::array<double, 2> line = {2.0 * 0.98 * std::cos(0.4 * std::numbers::pi), -0.98 * 0.98};
+  rates[0] = sum(std::move(rates[0]), autoregressive(line, kWhole, 63), 0.06);
+  return rates;
+}
+
+// From 44 s on.
+TEST(LearnedInMotion, ALineIsUsedAsTheDaemonDoes) {
+  const settings::Settings settings;
+  const std::array<Signal, 3> rates = swing_with_a_line();
+  const auto courses = app::learned_from({rates[0], rates[1], rates[2]}, kCourseRateHz);
+  app::RowNoise row;
+  app::add_learned(courses[0], row);
+  EXPECT_EQ(row.by, app::NoiseKnownBy::kLines);
+  EXPECT_FALSE(row.from_sample) << "the rest is guessed";
+  const auto sensor = std::make_shared<app::SensorAxes>(app::SensorAxes{rates, courses});
+  app::MethodContext learned{settings, kCourseRateHz, courses[0]};
+  learned.sensor = sensor;
+  const Signal denoised = published(app::EstimateKind::kDenoised, rates);
+  EXPECT_LT(worst_difference(denoised, "joint", learned, rates[0]), 1e-5);
+  app::MethodContext guessing{settings, kCourseRateHz, {}};
+  guessing.sensor = std::make_shared<app::SensorAxes>(app::SensorAxes{rates, {}});
+  EXPECT_GT(worst_difference(denoised, "joint", guessing, rates[0]), 0.05);
 }
 
 TEST(LearnedAtRest, IsWhatARunShowsItselfWhereItLearnsItself) {
