@@ -9,7 +9,7 @@ namespace gyrod::core {
 namespace {
 
 /// Logarithm of one in a hundred.
-const double kByChance = -4.605170185988091;
+constexpr double kByChance = -4.605170185988091;
 
 /// Coherence that so many segments of independent noise exceed by chance in one of a hundred: 1 - 0.01^(1 / (n - 1)).
 /// Source: Carter, Knapp, Nuttall 1973, IEEE Trans. Audio Electroacoust. 21, 337.

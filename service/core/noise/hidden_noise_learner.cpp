@@ -85,23 +85,19 @@ void HiddenNoiseLearner::add_segment() noexcept {
     NoiseSpectrum power;
     periodogram_.transform(segment_[axis], power);
     std::ranges::copy(periodogram_.spectrum(), transforms_[axis].begin());
+  }
+  AxisSums sums;
+  sums.add(transforms_);
+  for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
+    const NoiseSpectrum& power = sums.power[axis];
+    NoiseSpectrum in_phase;
+    for (std::size_t k = 0; k < kNoiseBins; ++k) in_phase[k] = sums.cross[axis][k].real();
     bands_.add(power, this_half_.bands.own[axis]);
+    bands_.add(in_phase, this_half_.bands.shared[axis]);
     for (std::size_t k = 0; k < kNoiseBins; ++k) this_half_.power[axis][k] += power[k];
   }
-  add_shared();
   this_half_.bands.count += 1.0;
-  if (own_lines_.add(transforms_)) publish();
-}
-
-void HiddenNoiseLearner::add_shared() noexcept {
-  for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
-    const auto& one = transforms_[(axis + 1) % kSensorAxes];
-    const auto& other = transforms_[(axis + 2) % kSensorAxes];
-    NoiseSpectrum product;
-    for (std::size_t k = 0; k < kNoiseBins; ++k)
-      product[k] = one[k].real() * other[k].real() + one[k].imag() * other[k].imag();
-    bands_.add(product, this_half_.bands.shared[axis]);
-  }
+  if (own_lines_.add(transforms_, sums)) publish();
 }
 
 void HiddenNoiseLearner::end_half() noexcept {

@@ -57,7 +57,6 @@ class HiddenNoiseLearner {
 
   void end_segment() noexcept;
   void add_segment() noexcept;
-  void add_shared() noexcept;
   void end_half() noexcept;
   void watch_least() noexcept;
   [[nodiscard]] AxisBands::Axes least() const noexcept;

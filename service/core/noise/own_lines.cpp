@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "core/noise/noise_lines.hpp"
 #include "core/noise/same_noise.hpp"
@@ -11,6 +12,7 @@
 namespace gyrod::core {
 namespace {
 
+// What these are good for: docs/decisions/0013.
 constexpr double kLeastBlockSegments = 8.0;
 constexpr double kLeastBlockSeconds = 15.0;
 /// In bins.
@@ -45,6 +47,12 @@ double sum_of(const NoiseSpectrum& spectrum, const Bins& bins) noexcept {
   return sum;
 }
 
+bool is_finite(const AxisSums& sums) noexcept {
+  double sum = 0.0;
+  for (const NoiseSpectrum& power : sums.power) sum = std::accumulate(power.begin(), power.end(), sum);
+  return std::isfinite(sum);
+}
+
 const SpectralLine* same_line(const NoiseModel& model, const SpectralLine& line) noexcept {
   const auto lines = model.lines();
   const auto found = std::ranges::find_if(lines, [&line](const SpectralLine& one) {
@@ -68,9 +76,11 @@ void OwnLines::retime(double segment_seconds) noexcept {
   interrupt();
 }
 
-bool OwnLines::add(const AxisTransforms& segment) noexcept {
-  AxisSums sums;
-  sums.add(segment);
+bool OwnLines::add(const AxisTransforms& segment, const AxisSums& sums) noexcept {
+  if (!is_finite(sums)) {
+    interrupt();
+    return false;
+  }
   const double kept = std::min(all_.segments[0], most_segments_ - 1.0);
   all_.blend(sums, kAllAxes, most_segments_);
   for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
@@ -138,7 +148,7 @@ bool OwnLines::is_own(std::size_t axis, const SpectralLine& line, const NoiseSpe
   for (std::size_t k = bins.first; k <= bins.last; ++k) {
     const double power = all_.power[axis][k];
     below += power * (portable_log(power) - log_[axis][k]);
-    phase += std::abs(later_[axis][k]);
+    phase += std::sqrt(std::norm(later_[axis][k]));
     weight += power;
   }
   if (!(phase < kMostPhase * weight) || below > kMostBelow * weight) return false;

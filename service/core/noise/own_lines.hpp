@@ -24,8 +24,9 @@ class OwnLines {
   explicit OwnLines(double segment_seconds) noexcept { retime(segment_seconds); }
 
   /// @param segment of the stretch that half overlaps the last one's
+  /// @param sums    of that segment alone; where it is not finite nothing is added
   /// @return whether lines() has changed
-  bool add(const AxisTransforms& segment) noexcept;
+  bool add(const AxisTransforms& segment, const AxisSums& sums) noexcept;
   /// The next segment does not go on where the last one was.
   void interrupt() noexcept { since_gap_ = 0; }
   /// Forgets all.

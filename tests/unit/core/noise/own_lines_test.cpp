@@ -57,7 +57,9 @@ OwnLinesFound find_own_lines(const std::array<Signal, 3>& axes, std::size_t gap_
       std::ranges::copy(periodogram.spectrum(), (*transforms)[axis].begin());
     }
     const auto before = own->lines();
-    const bool changed = own->add(*transforms);
+    AxisSums sums;
+    sums.add(*transforms);
+    const bool changed = own->add(*transforms, sums);
     EXPECT_EQ(changed, own->lines() != before);
     if (changed && found.first_s == 0.0)
       found.first_s = static_cast<double>(first + kNoiseSegment) / kOwnLinesHz;
@@ -155,6 +157,14 @@ TEST(OwnLines, LeavesAnAxisOfManyLines) {
   for (const double hz : {13.0, 20.0, 31.0})
     axes[2] = testing::sum(axes[2], resonance(hz, 0.3, static_cast<unsigned>(hz)), 0.7);
   EXPECT_EQ(line_count(find_own_lines(axes)), 0U);
+}
+
+// A glitch whose square no number holds is left out, and what was averaged stays.
+TEST(OwnLines, LeavesOutWhatIsNotFinite) {
+  auto axes = white_axes();
+  axes[2] = testing::sum(axes[2], resonance(20.0, 0.3, 7), 0.7);
+  axes[1][kSixMinutes / 2] = 1e200;
+  EXPECT_EQ(line_count(find_own_lines(axes)), 1U);
 }
 
 TEST(OwnLines, FindsNothingInNoise) { EXPECT_EQ(line_count(find_own_lines(white_axes())), 0U); }
