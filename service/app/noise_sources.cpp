@@ -29,13 +29,15 @@ NoiseSources::NoiseSources(const settings::NoiseSettings& settings, settings::No
       remembered_(remembered.size()),
       learned_(std::move(remembered)) {}
 
-void NoiseSources::attach_to(stream::EngineOptions& options) {
+void NoiseSources::attach_to(stream::EngineOptions& options, bool in_motion) {
   if (source_ == settings::NoiseSource::kImf1) return;
   const double rate_hz = options.sample_rate_hz;
   options.noise = [this, rate_hz](std::string_view sensor) {
     return stream::noise_beforehand(options_of(sensor, rate_hz));
   };
-  options.learner = [this, rate_hz](std::string_view sensor) { return learner_of(sensor, rate_hz); };
+  options.learner = [this, rate_hz, in_motion](std::string_view sensor) {
+    return learner_of(sensor, rate_hz, in_motion);
+  };
 }
 
 stream::StandstillOptions NoiseSources::options_of(std::string_view sensor, double sample_rate_hz) const {
@@ -51,9 +53,10 @@ stream::StandstillOptions NoiseSources::options_of(std::string_view sensor, doub
   return options;
 }
 
-std::unique_ptr<stream::NoiseLearner> NoiseSources::learner_of(std::string_view sensor,
-                                                               double sample_rate_hz) {
+std::unique_ptr<stream::NoiseLearner> NoiseSources::learner_of(std::string_view sensor, double sample_rate_hz,
+                                                               bool in_motion) {
   stream::StandstillOptions options = options_of(sensor, sample_rate_hz);
+  options.learns_in_motion = in_motion;
   settings::NoiseStates one;
   one.try_emplace(std::string(sensor));
   // Shared, as what a std::function holds has to be copyable.

@@ -26,7 +26,8 @@ class NoiseSources {
   NoiseSources(const settings::NoiseSettings& settings, settings::NoiseStates remembered);
 
   /// Has an engine's channels use this. It has to outlive the engine.
-  void attach_to(stream::EngineOptions& options);
+  /// @param in_motion whether the method asks for what is learned in motion
+  void attach_to(stream::EngineOptions& options, bool in_motion);
 
   /// What was learned by now or is remembered, of all sensors of which something was; not all of one moment, as the thread that learns is
   /// let in between. Any thread.
@@ -51,7 +52,7 @@ class NoiseSources {
 
   [[nodiscard]] stream::StandstillOptions options_of(std::string_view sensor, double sample_rate_hz) const;
   [[nodiscard]] std::unique_ptr<stream::NoiseLearner> learner_of(std::string_view sensor,
-                                                                 double sample_rate_hz);
+                                                                 double sample_rate_hz, bool in_motion);
   void keep(Place& place, const stream::RememberedNoise& state);
 
   settings::NoiseSource source_;

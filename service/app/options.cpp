@@ -124,7 +124,7 @@ stream::EngineOptions live_engine_options(const settings::Settings& settings, No
                                           PublishedFile& published) {
   stream::EngineOptions options = settings.engine;
   options.workers = worker_threads(settings);
-  noise.attach_to(options);
+  noise.attach_to(options, is_model_method(settings.denoise));
   if (settings.bus.input.durability == settings::Durability::kTransientLocal) {
     options.published_before = [&published](std::string_view sensor) {
       return published.take_before(sensor);
@@ -137,7 +137,7 @@ stream::EngineOptions offline_engine_options(const settings::Settings& settings,
   stream::EngineOptions options = settings.engine;
   options.workers = 0;
   options.max_channels = 1;
-  noise.attach_to(options);
+  noise.attach_to(options, is_model_method(settings.denoise));
   return options;
 }
 

@@ -89,7 +89,8 @@ StandstillNoise::StandstillNoise(StandstillOptions options)
   revision_ = learner_.revision();
   learned_at_rest_ = std::ranges::any_of(learner_.models(), core::is_usable);
   rest_seconds_ = learner_.rest_seconds();
-  if (!options_.calibrated && options_.use_learned) hidden_.emplace(rate_hz_ > 0.0 ? rate_hz_ : kAnyRateHz);
+  if (!options_.calibrated && options_.use_learned && options_.learns_in_motion)
+    hidden_.emplace(rate_hz_ > 0.0 ? rate_hz_ : kAnyRateHz);
 }
 
 void StandstillNoise::step(const Sample& sample, bool measured, double sample_rate_hz) noexcept {

@@ -38,6 +38,8 @@ struct StandstillOptions {
   std::optional<CalibratedNoise> calibrated = {};
   /// Whether what is learned is in use where nothing is calibrated. At rest it is learned in any case.
   bool use_learned = true;
+  /// Whether that goes for what is learned in motion, too. Method `paper` asks for none of it.
+  bool learns_in_motion = true;
   /// Of an earlier run.
   std::optional<RememberedNoise> remembered = {};
   /// Told of every change of the learned models, from the thread that pushes. Must not throw; may be empty.

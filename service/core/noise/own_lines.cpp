@@ -72,6 +72,7 @@ void OwnLines::retime(double segment_seconds) noexcept {
   later_ = {};
   later_segments_ = 0.0;
   block_ = {};
+  in_block_ = 0.0;
   candidates_ = lines_ = {};
   interrupt();
 }
@@ -85,14 +86,14 @@ bool OwnLines::add(const AxisTransforms& segment, const AxisSums& sums) noexcept
   all_.blend(sums, kAllAxes, most_segments_);
   for (std::size_t axis = 0; axis < kSensorAxes; ++axis) {
     for (std::size_t k = 0; k < kNoiseBins; ++k) {
-      block_.power[axis][k] += sums.power[axis][k];
+      block_[axis][k] += sums.power[axis][k];
       const double logarithm = portable_log(std::max(sums.power[axis][k], 1e-300));
       log_[axis][k] = (kept * log_[axis][k] + logarithm) / (kept + 1.0);
     }
   }
   follow_phase(segment);
-  block_.count += 1.0;
-  return block_.count >= block_segments_ && end_block();
+  in_block_ += 1.0;
+  return in_block_ >= block_segments_ && end_block();
 }
 
 void OwnLines::follow_phase(const AxisTransforms& segment) noexcept {
@@ -125,6 +126,7 @@ bool OwnLines::end_block() noexcept {
     candidates_[axis] = now;
   }
   block_ = {};
+  in_block_ = 0.0;
   return lines_ != before;
 }
 
@@ -154,7 +156,7 @@ bool OwnLines::is_own(std::size_t axis, const SpectralLine& line, const NoiseSpe
   if (!(phase < kMostPhase * weight) || below > kMostBelow * weight) return false;
   const double floors = sum_of(floor, bins);
   const double all = sum_of(all_.power[axis], bins) - floors;
-  const double now = sum_of(block_.power[axis], bins) / block_.count - floors;
+  const double now = sum_of(block_[axis], bins) / in_block_ - floors;
   return now <= kSteadyLine * all && now * kSteadyLine >= all;
 }
 

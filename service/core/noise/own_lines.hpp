@@ -16,7 +16,7 @@ namespace gyrod::core {
 ///            strong at the time, goes on as it was;
 ///   lasting: ln of its power is in the mean no more than 1.2 below ln of the mean: 0.58 of noise, 2 of what knocks make ring now and then;
 ///   steady:  as strong in the block as in all, within a factor of two.
-/// A plain value of about 85 kB; allocates nothing.
+/// A plain value of about 70 kB; allocates nothing.
 /// Source: docs/noise.md, "In motion".
 class OwnLines {
  public:
@@ -53,7 +53,8 @@ class OwnLines {
   double later_segments_ = 0.0;
   std::array<AxisTransforms, 2> last_{};  ///< the last segment, and the one before
   std::size_t since_gap_ = 0;             ///< segments
-  AxisSums block_;
+  Axes block_{};                          ///< sums over the block at work
+  double in_block_ = 0.0;
   std::array<NoiseModel, kSensorAxes> candidates_{};  ///< of the last block
   std::array<NoiseModel, kSensorAxes> lines_{};
 };

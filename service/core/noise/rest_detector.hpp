@@ -41,7 +41,7 @@ enum class RestVerdict : std::uint8_t {
 /// forces that differ from the one before count: one that is slower than the gyro, and holds or repeats its last, tells so much less; n is
 /// that number in the second rule. Neither level nor bias is judged: that takes a memory
 /// (standstill_learner.hpp). The verdict is a function of samples and sample rate alone: no clock.
-/// Constant memory of about 110 kB; nothing allocates after construction. One thread at a time.
+/// Constant memory of about 80 kB; nothing allocates after construction. One thread at a time.
 class RestDetector {
  public:
   static constexpr std::size_t kBlocks = 8;

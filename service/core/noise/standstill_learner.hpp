@@ -35,7 +35,7 @@ struct StandstillState {
 /// Spectra of the segments at rest are averaged, with the weight of the last ten minutes of rest; older ones fade. From five
 /// segments and ten seconds on fit_noise_and_lines() makes models of them, again whenever a tenth has been added. A line that two axes share is not
 /// learned: a weak engine's, that passes for rest.
-/// A function of samples and sample rate alone. About 150 kB; nothing allocates after construction. One thread at a time.
+/// A function of samples and sample rate alone. About 100 kB; nothing allocates after construction. One thread at a time.
 class StandstillLearner {
  public:
   /// @pre sample_rate_hz > 0

@@ -25,7 +25,7 @@ class NoiseSourcesTest : public ::testing::Test {
   explicit NoiseSourcesTest(settings::NoiseStates remembered = {})
       : noise_(settings::NoiseSettings{}, std::move(remembered)) {
     options_.sample_rate_hz = 100.0;
-    noise_.attach_to(options_);
+    noise_.attach_to(options_, true);
   }
   [[nodiscard]] std::unique_ptr<stream::NoiseLearner> open(const std::string& sensor) const {
     return options_.learner(sensor);

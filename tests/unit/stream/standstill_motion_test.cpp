@@ -127,6 +127,8 @@ TEST(StandstillNoiseInMotion, IsNotAskedForWhereSomethingIsKnown) {
   EXPECT_EQ(after(knows, moving(kHalfMinute, 1)), ChannelNoise{}) << "nothing new";
   StandstillNoise may_not({.use_learned = false});
   EXPECT_EQ(after(may_not, moving(kHalfMinute, 1)), ChannelNoise{});
+  StandstillNoise at_rest_alone({.learns_in_motion = false});
+  EXPECT_EQ(after(at_rest_alone, moving(kHalfMinute, 1)), ChannelNoise{}) << "method paper asks for none";
 }
 
 TEST(StandstillNoiseInMotion, BeginsAnewAtAGapAndKeepsWhatItHas) {
