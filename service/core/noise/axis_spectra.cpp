@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/noise/spectrum_floor.hpp"
 #include "core/signal/portable_math.hpp"
 
 namespace gyrod::core {
@@ -10,6 +11,14 @@ namespace {
 
 /// Logarithm of one in a hundred.
 constexpr double kByChance = -4.605170185988091;
+
+/// Coherence, in the mean of all bins.
+constexpr double kCopies = 0.9;
+
+/// Of AxisSpectra::cross.
+constexpr std::size_t pair_of(std::size_t axis, std::size_t other) noexcept {
+  return kSensorAxes - axis - other;
+}
 
 /// Coherence that so many segments of independent noise exceed by chance in one of a hundred: 1 - 0.01^(1 / (n - 1)).
 /// Source: Carter, Knapp, Nuttall 1973, IEEE Trans. Audio Electroacoust. 21, 337.
@@ -47,19 +56,38 @@ void AxisSpectra::blend(const AxisSums& sums, const std::array<bool, kSensorAxes
 }
 
 double AxisSpectra::shared(std::size_t axis, std::size_t first, std::size_t last) const noexcept {
+  return std::max(shared_with(axis, next_axis(axis), first, last),
+                  shared_with(axis, last_axis(axis), first, last));
+}
+
+double AxisSpectra::shared_apart(std::size_t axis, std::size_t first, std::size_t last) const noexcept {
   double most = 0.0;
   for (const std::size_t other : {next_axis(axis), last_axis(axis)}) {
-    const std::size_t pair = kSensorAxes - axis - other;
-    double common = 0.0;
-    double all = 0.0;
-    for (std::size_t k = first; k <= last; ++k) {
-      common += std::norm(cross[pair][k]);
-      all += power[axis][k] * power[other][k];
-    }
-    const double coherence = all > 0.0 ? common / all : 0.0;
-    if (coherence > chance_coherence(cross_segments[pair])) most = std::max(most, coherence);
+    if (!are_copies(axis, other)) most = std::max(most, shared_with(axis, other, first, last));
   }
   return most;
+}
+
+double AxisSpectra::shared_with(std::size_t axis, std::size_t other, std::size_t first,
+                                std::size_t last) const noexcept {
+  const std::size_t pair = pair_of(axis, other);
+  double common = 0.0;
+  double all = 0.0;
+  for (std::size_t k = first; k <= last; ++k) {
+    common += std::norm(cross[pair][k]);
+    all += power[axis][k] * power[other][k];
+  }
+  const double coherence = all > 0.0 ? common / all : 0.0;
+  return coherence > chance_coherence(cross_segments[pair]) ? coherence : 0.0;
+}
+
+bool AxisSpectra::are_copies(std::size_t axis, std::size_t other) const noexcept {
+  double coherence = 0.0;
+  for (std::size_t k = kFirstNoiseBin; k < kNoiseBins; ++k) {
+    const double all = power[axis][k] * power[other][k];
+    if (all > 0.0) coherence += std::norm(cross[pair_of(axis, other)][k]) / all;
+  }
+  return coherence > kCopies * static_cast<double>(kNoiseBins - kFirstNoiseBin);
 }
 
 }  // namespace gyrod::core

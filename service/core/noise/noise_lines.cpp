@@ -142,7 +142,7 @@ SpectrumParts take_lines(const NoiseSpectrum& power, double segments) noexcept {
 
 SpectrumParts take_lines(const AxisSpectra& axes, std::size_t axis) noexcept {
   return take_apart(axes.power[axis], axes.segments[axis], [&](const Extent& extent) {
-    return axes.shared(axis, extent.first, extent.last) >= kSharedLine;
+    return axes.shared_apart(axis, extent.first, extent.last) >= kSharedLine;
   });
 }
 

@@ -32,7 +32,7 @@ struct SpectrumParts {
 /// Allocates nothing; about 0.1 ms.
 [[nodiscard]] SpectrumParts take_lines(const NoiseSpectrum& power, double segments) noexcept;
 
-/// The same of one axis of three. Its line is shared where AxisSpectra::shared() is a quarter or more: the lines of a sensor's axes, each from its own drive,
+/// The same of one axis of three. Its line is shared where AxisSpectra::shared_apart() is a quarter or more: the lines of a sensor's axes, each from its own drive,
 /// know nothing of each other, those of an engine or a fan do, as it shakes all the sensor.
 [[nodiscard]] SpectrumParts take_lines(const AxisSpectra& axes, std::size_t axis) noexcept;
 

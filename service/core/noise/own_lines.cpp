@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <complex>
 #include <numeric>
 
 #include "core/noise/noise_lines.hpp"
@@ -153,7 +154,7 @@ bool OwnLines::is_own(std::size_t axis, const SpectralLine& line, const NoiseSpe
     phase += std::sqrt(std::norm(later_[axis][k]));
     weight += power;
   }
-  if (!(phase < kMostPhase * weight) || below > kMostBelow * weight) return false;
+  if (!(phase < kMostPhase * weight && below <= kMostBelow * weight)) return false;
   const double floors = sum_of(floor, bins);
   const double all = sum_of(all_.power[axis], bins) - floors;
   const double now = sum_of(block_[axis], bins) / in_block_ - floors;

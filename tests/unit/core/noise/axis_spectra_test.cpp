@@ -173,6 +173,19 @@ TEST(SharedLines, ASensorsOwnLinesAreItsNoise) {
   }
 }
 
+// A bench adds the noise of one axis to all: there the line is as much the noise's as all the rest.
+TEST(SharedLines, ACopyOfAnAxisTellsNothing) {
+  auto axes = still();
+  axes[0] = testing::sum(axes[0], testing::tone(60'000, 0.225), 0.6);
+  axes[1] = axes[0];
+  axes[2] = testing::times(axes[0], 0.5);
+  for (const StillAxis& axis : learned(axes)) {
+    ASSERT_TRUE(axis.model);
+    EXPECT_EQ(axis.model->line_count, 1U);
+    EXPECT_EQ(axis.shared_count, 0U);
+  }
+}
+
 TEST(SharedLines, DoNotHideTheSensorsOwn) {
   auto axes = still();
   for (std::size_t a = 0; a < 2; ++a) {

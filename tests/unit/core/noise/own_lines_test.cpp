@@ -102,6 +102,13 @@ TEST(OwnLines, LeavesWhatAxesShare) {
   EXPECT_EQ(line_count(find_own_lines(axes)), 0U);
 }
 
+TEST(OwnLines, LeavesWhatAxesThatAreCopiesShare) {
+  auto axes = white_axes();
+  axes[2] = testing::sum(axes[2], resonance(20.0, 0.3, 7), 0.7);
+  axes[0] = axes[1] = axes[2];
+  EXPECT_EQ(line_count(find_own_lines(axes)), 0U);
+}
+
 // A tone of a guard, a rotor: on one axis alone, and as strong now and then as it likes.
 TEST(OwnLines, LeavesASineHoweverItsStrengthChanges) {
   auto steady = white_axes();
