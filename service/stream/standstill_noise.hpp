@@ -62,8 +62,8 @@ struct StandstillOptions {
 /// Bridged positions are gaps to the learner where they are more than 2 % of a block's samples: what is interpolated has less noise. Of an
 /// accelerometer that fails for a few samples the last value holds; where it fails for longer, rest is judged without it until it has been back
 /// for kForcesAgain samples. Beside the learner grows the Allan deviation of what is at rest (RestAllan), of measured samples only; it begins anew
-/// where the learner does. While nothing else is known, noise behind a sensor's own low-pass is learned in motion (core::HiddenNoiseLearner), is in use
-/// with the source kImf1, and is not kept: what is learned at rest takes its place.
+/// where the learner does. While nothing else is known, noise behind a sensor's own low-pass, and lines of its axes, are learned in motion (core::HiddenNoiseLearner), are in use
+/// with the source kImf1, and are not kept: what is learned at rest takes their place.
 class StandstillNoise final : public NoiseLearner {
  public:
   static constexpr std::size_t kAgreeing = 256;
