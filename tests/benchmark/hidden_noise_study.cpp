@@ -1,5 +1,5 @@
 // What is learned of a sensor's noise while it moves: behind a low-pass of its own, and of what passes for rest. And what that is worth. For docs/joint.md,
-// docs/measured.md and docs/decisions/0012:
+// docs/measured.md, docs/decisions/0012 and 0013:
 //
 //   GYROD_DATA=... hidden_noise_study [errors] [RATE LOW_PASS [z]]
 //

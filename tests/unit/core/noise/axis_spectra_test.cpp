@@ -141,6 +141,14 @@ std::array<StillAxis, 3> learned(const std::array<Signal, 3>& axes) {
   return still_noise(std::span(&samples, 1));
 }
 
+void expect_a_line_of_its_own_on_each(const std::array<Signal, 3>& axes) {
+  for (const StillAxis& axis : learned(axes)) {
+    ASSERT_TRUE(axis.model);
+    EXPECT_EQ(axis.model->line_count, 1U);
+    EXPECT_EQ(axis.shared_count, 0U);
+  }
+}
+
 // An idling engine's, a sixth and a twentieth of the variance, a quarter turn apart (WID trial 06 has 0.46 and 0.30 deg/s at 22.5 Hz).
 TEST(SharedLines, AreAnEnginesAndNotOfTheModel) {
   auto axes = still();
@@ -166,11 +174,7 @@ TEST(SharedLines, ASensorsOwnLinesAreItsNoise) {
     axes[a] =
         testing::sum(axes[a], testing::autoregressive(resonance, 60'000, 7 + static_cast<unsigned>(a)), 0.05);
   axes[2] = testing::sum(axes[2], testing::tone(60'000, 0.31), 0.6);
-  for (const StillAxis& axis : learned(axes)) {
-    ASSERT_TRUE(axis.model);
-    EXPECT_EQ(axis.model->line_count, 1U);
-    EXPECT_EQ(axis.shared_count, 0U);
-  }
+  expect_a_line_of_its_own_on_each(axes);
 }
 
 // A bench adds the noise of one axis to all: there the line is as much the noise's as all the rest.
@@ -179,11 +183,7 @@ TEST(SharedLines, ACopyOfAnAxisTellsNothing) {
   axes[0] = testing::sum(axes[0], testing::tone(60'000, 0.225), 0.6);
   axes[1] = axes[0];
   axes[2] = testing::times(axes[0], 0.5);
-  for (const StillAxis& axis : learned(axes)) {
-    ASSERT_TRUE(axis.model);
-    EXPECT_EQ(axis.model->line_count, 1U);
-    EXPECT_EQ(axis.shared_count, 0U);
-  }
+  expect_a_line_of_its_own_on_each(axes);
 }
 
 TEST(SharedLines, DoNotHideTheSensorsOwn) {

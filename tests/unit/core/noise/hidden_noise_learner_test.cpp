@@ -97,6 +97,20 @@ TEST(HiddenNoiseLearner, LearnsLevelAndColourBehindALowPassInMotion) {
   }
 }
 
+// 60 Hz, 2 Hz to either side, on z alone.
+TEST(HiddenNoiseLearner, AddsTheLineOfAnAxisToWhatTheLowPassLeaves) {
+  HiddenNoiseLearner learner(kRateHz);
+  Axes axes = driven(2 * kMinute, 3);
+  const std::array<double, 2> line = {2.0 * 0.9875 * std::cos(0.12 * std::numbers::pi), -0.9875 * 0.9875};
+  axes[2] = testing::sum(std::move(axes[2]), testing::autoregressive(line, 2 * kMinute, 90),
+                         0.006 * testing::kRadPerDeg);
+  testing::run(learner, axes, [] {});
+  ASSERT_TRUE(knows(learner));
+  EXPECT_EQ(learner.models()[0].line_count, 0U);
+  ASSERT_EQ(learner.models()[2].line_count, 1U);
+  EXPECT_NEAR(learner.models()[2].line[0].cycles, 0.06, 0.002);
+}
+
 TEST(HiddenNoiseLearner, LearnsWhatIsThereAtRest) {
   HiddenNoiseLearner learner(kRateHz);
   Axes axes = testing::still_axes(kMinute, kLevel, 3);
